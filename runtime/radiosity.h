@@ -88,17 +88,16 @@ RAD_API RadDevice radNewDevice(const struct RadDeviceOptions *options);
 /* A device over processes that work together: `communicator` is the address of an MPI_Comm, of
  * which it makes its own; MPI_Init_thread(MPI_THREAD_FUNNELED) comes before, MPI_Finalize after the
  * last release. Each process, a rank, makes the same calls with the same arguments, from one
- * thread; each of radNewSolution, radRefine, radStep, radSolve, radMeasureError, radMeasurePlaces,
- * radCorrect, radNewReference, radTraceReference, radNewExchange, radMultiplyExchange,
- * radGetPointFactors, radGetRanks and radGetExchangeRanks waits for all, and so does this call.
- * Results are the same on all ranks, and the same as of one process: links, counts of particles and
- * view factors to the bit. A rank keeps the links whose receivers it has: radGetLinks lends these;
- * of exchange areas all have all. A progress function may not cancel a solve. What looks at all
- * links at once (Southwell's method, LU, error control, ranked links, enclosing solutions, accounts
- * and causes of errors, traces, statistics) is refused with RAD_ERROR_UNSUPPORTED while there are
- * several ranks.
- * Returns NULL, and radGetDeviceError(NULL) says why: RAD_ERROR_UNSUPPORTED where the library was
- * built without MPI. */
+ * thread; each of radNewSolution, radRefine, radStep, radSolve, radSolveScene, radMeasureError,
+ * radMeasurePlaces, radCorrect, radNewReference, radTraceReference, radNewExchange,
+ * radMultiplyExchange, radGetPointFactors, radGetRanks and radGetExchangeRanks waits for all, and
+ * so does this call. Results are the same on all ranks, and the same as of one process: links,
+ * counts of particles and view factors to the bit. A rank keeps the links whose receivers it has:
+ * radGetLinks lends these; of exchange areas all have all. A progress function may not cancel a
+ * solve. What looks at all links at once (Southwell's method, LU, error control, ranked links,
+ * enclosing solutions, accounts and causes of errors, traces, statistics) is refused with
+ * RAD_ERROR_UNSUPPORTED while there are several ranks. Returns NULL, and radGetDeviceError(NULL)
+ * says why: RAD_ERROR_UNSUPPORTED where the library was built without MPI. */
 RAD_API RadDevice radNewDeviceMPI(const struct RadDeviceOptions *options, const void *communicator);
 RAD_API void radRetainDevice(RadDevice device);
 RAD_API void radReleaseDevice(RadDevice device);
@@ -303,6 +302,12 @@ RAD_API const char *radGetOracleGraph(RadOracle oracle);
 RAD_API int radSetOracleParameter(RadOracle oracle, const char *name, double value);
 /* NAN when there is no such parameter. */
 RAD_API double radGetOracleParameter(RadOracle oracle, const char *name);
+/* All of its thresholds coarser or finer together: parameters with the role of a link's threshold
+ * or of a tolerance that is a share become `scale`, above 0, times what was set, and the smallest
+ * part as well where that is below 1, all within their ranges; but for what its author has fixed.
+ * It is what was set that counts, not the last scale: 1 brings it back. Returns how many are
+ * scaled, or -1. */
+RAD_API int radScaleOracle(RadOracle oracle, double scale);
 /* Ask it once; safe from many threads while no parameter is set. */
 RAD_API enum decision radAskOracle(RadOracle oracle, struct discussion *discussion);
 /* The same of `count` discussions, which have one host: decisions[i] is that of block[i]. By
@@ -471,6 +476,32 @@ RAD_API int radRefine(RadSolution solution);
 RAD_API int radStep(RadSolution solution);
 /* Passes until no link changes. Returns 0, or -1. */
 RAD_API int radSolve(RadSolution solution);
+
+/* How many links there are, of one oracle. */
+struct RadChoice {
+    double scale;   /* of the oracle's thresholds, as radScaleOracle has it */
+    int no_links;   /* 1: none, as RadSolveOptions has it; then scale means nothing */
+    uint64_t rays;  /* of measuring, and of solutions that were given up */
+    double seconds; /* for these */
+};
+/* Told of each solution that is tried, before it is solved, and of its links. Return 0 to go on,
+ * anything else to give up: RAD_ERROR_CANCELLED. */
+typedef int (*RadTryFunction)(void *user, RadSolution solution, const struct RadChoice *choice);
+struct RadChoiceOptions {
+    int keep_links; /* 1: there shall be some, whatever they cost */
+    RadTryFunction begin;
+    void *user;
+};
+
+/* Make a solution and solve it over as many links as pay, for radCorrect to mend: none, coarse
+ * ones, or those that the oracle asks for as it is set, whichever leaves least to do for links and
+ * particles together (engine/api_choice.c). None only where the basis is linear and nothing is
+ * said of closure, solver and tolerance. What is chosen follows from counts, not from time: it is
+ * the same for any number of threads and ranks. The oracle's thresholds are left scaled so. NULL
+ * options, wishes: the defaults; NULL choice: nobody asks. Returns the solution, or NULL. */
+RAD_API RadSolution radSolveScene(RadScene scene, RadOracle oracle,
+                                  const struct RadSolveOptions *options,
+                                  const struct RadChoiceOptions *wishes, struct RadChoice *choice);
 
 /* Area means of one band over each polygon of the scene, both sides of two-sided ones;
  * [RadSceneReport.polygons], the caller's; any may be NULL. B of what is not covered by others, H

@@ -105,7 +105,8 @@ class Scene:
               measure=True, progress=None):
         """The light in the scene, as Solution.
 
-        oracle: the name of a built-in one, or a .dag file; None: the default. parameters: a dict of its own.
+        oracle: the name of a built-in one, or a .dag file; None: the default, over as many links as pay. parameters:
+        a dict of its own.
         basis: "linear" or "constant" on each element. closure: "none" or "rows". tolerance: what iteration may
         leave; 0: a tenth of what the elements leave. correct: mend the solution by particles. measure: measure its
         error by others. progress: as of view_factors.

@@ -20,7 +20,8 @@ class Solution:
     radiosity, irradiance: B and H, W/m2. report: counts and powers (struct RadReport of radiosity.h).
     error, deviation: B less the truth, as measured, and the standard error of that, W/m2. measured: the error of the
     whole as shares of the reflected light (struct RadErrorReport): .l1_faces and .power have .value and .low and
-    .high, a 95 % interval. All three are None until the error is measured.
+    .high, a 95 % interval. All three are None until the error is measured. links: how many were made, where that was
+    chosen (struct RadChoice of radiosity.h): .no_links is 1 where there are none, .scale the thresholds' scale.
     """
 
     def __init__(self, device, handle, count):
@@ -29,7 +30,7 @@ class Solution:
         lib.radGetReport(handle, report)
         self.report = as_namespace(report[0])
         self.radiosity, self.irradiance = self._values(lib.radGetPolygonValues)
-        self.error = self.deviation = self.measured = None
+        self.error = self.deviation = self.measured = self.links = None
 
     def measure_error(self, rays=0, stream=0, *, surfaces=False, progress=None):
         """Measure the error; returns `measured`.
@@ -89,11 +90,18 @@ def compute_solution(scene, oracle, parameters, basis, closure, tolerance, corre
     if parameters is not None and not hasattr(parameters, "items"):
         raise InvalidInput("parameters must be a dict, a value for each name")
     asked = _open_oracle(device, oracle, parameters)
-    handle = device.call(lib.radNewSolution, scene._handle, asked, options, release=lib.radReleaseSolution)
-    device.call(lib.radSolve, handle, progress=progress)
+    choice = None
+    if correct and oracle is None and not parameters:
+        choice = ffi.new("struct RadChoice *")
+        handle = device.call(lib.radSolveScene, scene._handle, asked, options, ffi.NULL, choice, progress=progress,
+                             release=lib.radReleaseSolution)
+    else:
+        handle = device.call(lib.radNewSolution, scene._handle, asked, options, release=lib.radReleaseSolution)
+        device.call(lib.radSolve, handle, progress=progress)
     if correct:
         device.call(lib.radCorrect, handle, ffi.NULL, ffi.NULL, progress=progress)
     solution = Solution(device, handle, len(scene))
+    solution.links = None if choice is None else as_namespace(choice[0])
     if measure:
         solution.measure_error(progress=progress)
     return solution

@@ -69,6 +69,7 @@ struct RadOracleObject {
     atomic_int holders;
     RadDevice device;
     struct refiner *refiner;
+    double *set; /* [parameter_count]: parameters before they are scaled; NULL: none is */
     int counting;
     struct statistics counted;    /* what radGetOracleStatistics shows */
     struct explanation explained; /* what radExplain shows */
@@ -123,6 +124,9 @@ int api_not_dead(RadSolution solution);
 
 /* Is this process alone? Returns 0, or -1 with the device told that `what` needs all links. */
 int api_alone(RadDevice device, const char *what);
+
+/* radSolve. may_end: where refinement meets a limit nobody is told. Returns 0, -1, or 1: it has. */
+int api_solve(RadSolution solution, int may_end);
 
 /* Is there light to be looked at? Returns 0, or -1 with the device told that `what` needs it. */
 int api_solved(RadSolution solution, const char *what);

@@ -272,6 +272,7 @@ void radReleaseOracle(RadOracle oracle)
     explain_free(&oracle->explained);
     api_forget_source(&oracle->source);
     refiner_close(oracle->refiner);
+    free(oracle->set);
     radReleaseDevice(oracle->device);
     free(oracle);
 }
@@ -304,6 +305,8 @@ int radSetOracleParameter(RadOracle oracle, const char *name, double value)
     int status = refiner_set(oracle->refiner, name ? name : "", value, &messages);
     if (status < 0)
         api_fail(oracle->device, RAD_ERROR_INVALID_ARGUMENT, "%s", messages_text(&messages));
+    else if (oracle->set)
+        oracle->set[refiner_find(oracle->refiner, name)] = value;
     messages_free(&messages);
     return status;
 }
@@ -312,6 +315,54 @@ double radGetOracleParameter(RadOracle oracle, const char *name)
 {
     int i = oracle && name ? refiner_find(oracle->refiner, name) : -1;
     return i < 0 ? (double)NAN : refiner_get(oracle->refiner, i);
+}
+
+static int is_scaled(const struct oracle_parameter *p)
+{
+    return !p->fixed
+           && (p->role == ROLE_LINK_THRESHOLD || p->role == ROLE_SMALLEST_PART
+               || p->role == ROLE_RELATIVE_ERROR_TOLERANCE
+               || p->role == ROLE_RELATIVE_POWER_TOLERANCE);
+}
+
+/* What is set, kept from now on beside what is scaled. Returns 0, or -1. */
+static int keep_set(RadOracle oracle)
+{
+    const struct refiner *r = oracle->refiner;
+    if (oracle->set || r->parameter_count == 0)
+        return 0;
+    oracle->set = malloc((size_t)r->parameter_count * sizeof *oracle->set);
+    if (!oracle->set)
+        return api_fail(oracle->device, RAD_ERROR_OUT_OF_MEMORY,
+                        "out of memory for the parameters of oracle %s", r->oracle);
+    for (int i = 0; i < r->parameter_count; i++)
+        oracle->set[i] = refiner_get(r, i);
+    return 0;
+}
+
+int radScaleOracle(RadOracle oracle, double scale)
+{
+    struct messages messages = {0};
+    int count = 0;
+    if (!oracle)
+        return -1;
+    if (!(scale > 0 && scale < INFINITY))
+        return api_fail(oracle->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "the scale of thresholds is %g; it takes a number above 0", scale);
+    if (keep_set(oracle) < 0)
+        return -1;
+    for (int i = 0; i < oracle->refiner->parameter_count; i++) {
+        const struct oracle_parameter *p = &oracle->refiner->parameters[i];
+        if (!is_scaled(p))
+            continue;
+        const double times = p->role == ROLE_SMALLEST_PART ? fmin(scale, 1) : scale,
+                     near = p->integer ? round(oracle->set[i] * times) : oracle->set[i] * times;
+        /* in range and not fixed: it cannot fail */
+        (void)refiner_set(oracle->refiner, p->name, fmin(fmax(near, p->low), p->high), &messages);
+        count++;
+    }
+    messages_free(&messages);
+    return count;
 }
 
 enum decision radAskOracle(RadOracle oracle, struct discussion *discussion)

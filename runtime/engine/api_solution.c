@@ -343,7 +343,7 @@ int radStep(RadSolution solution)
     return more < 0 ? api_give_up(solution, cause) : more;
 }
 
-int radSolve(RadSolution solution)
+int api_solve(RadSolution solution, int may_end)
 {
     if (api_not_dead(solution) < 0)
         return -1;
@@ -353,10 +353,20 @@ int radSolve(RadSolution solution)
     forget_measured(solution);
     if (own_quarters_share(&solution->solve) < 0)
         return api_give_up(solution, "out of memory");
-    if (solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
-        return api_give_up(solution, cause);
+    if (solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0) {
+        const struct refinement *r = &solution->solve.refinement;
+        if (!may_end || !r->met || r->none || solution->solve.report.cancelled)
+            return api_give_up(solution, cause);
+        solution->dead = 1;
+        return 1;
+    }
     solution->done = 1;
     return 0;
+}
+
+int radSolve(RadSolution solution)
+{
+    return api_solve(solution, 0);
 }
 
 int radSolveWithFactors(RadSolution solution, const float *form_factors)

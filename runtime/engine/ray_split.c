@@ -3,7 +3,7 @@
  * Of errors e of links and s / sqrt(r) of r rays of particles the best mixture has
  * 1 / (1 / e^2 + r / s^2). So an error of t takes s^2 (1 / t^2 - 1 / e^2) rays of particles, and
  * finer links, of L rays and an error f, are worth them if and only if s^2 (1 / f^2 - 1 / e^2) > L,
- * whatever t is: solver/commands/coarse_first.c.
+ * whatever t is: api_choice.c.
  *
  * Both are measured on places: the largest elements of no more than PLACE_SHARE of the area, and
  * leaves that are larger. What particles differ from links by is e^2 + s^2 / r, of which chance

@@ -12,7 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 #include "commands/accuracy.h"
-#include "commands/thresholds.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/report.h"
@@ -41,6 +40,10 @@ struct work {
     struct measured *m;
     const struct options *o;
     RadDevice device;
+    RadScene scene;
+    RadOracle oracle;
+    const struct RadSolveOptions *how;
+    int thresholds; /* that the oracle has, to be scaled */
     double start;
 };
 
@@ -98,12 +101,12 @@ static int by_particles(struct work *w, double rays)
     }
 }
 
-static int solve_at(struct work *w, const struct thresholds *t, double scale, RadScene scene,
-                    const struct RadSolveOptions *how)
+static int solve_at(struct work *w, double scale)
 {
-    thresholds_scale(t, scale);
     *w->m = (struct measured){0};
-    if (solved_open(w->s, w->device, w->o->scene, scene, t->oracle, how) < 0)
+    if (radScaleOracle(w->oracle, scale) < 0)
+        return report_device(w->device, w->o->scene);
+    if (solved_open(w->s, w->device, w->o->scene, w->scene, w->oracle, w->how) < 0)
         return -1;
     w->a->scale = scale;
     w->a->solves++;
@@ -112,8 +115,7 @@ static int solve_at(struct work *w, const struct thresholds *t, double scale, Ra
 }
 
 /* Finer links and more particles by turns, whichever gained more per ray when last tried. */
-static int by_both(struct work *w, const struct thresholds *t, RadScene scene,
-                   const struct RadSolveOptions *how)
+static int by_both(struct work *w)
 {
     double wanted = w->o->accuracy, rays = FIRST_RAYS, scale = w->a->scale;
     double gain[2] = {INFINITY, INFINITY}; /* per ray: of particles, of links */
@@ -123,14 +125,14 @@ static int by_both(struct work *w, const struct thresholds *t, RadScene scene,
         double before = reach(w->o, w->m), cost = (double)w->a->rays;
         if (before <= wanted)
             return w->a->reached = 1, 0;
-        int links = gain[1] > gain[0] && t->count > 0 && scale > FINEST;
+        int links = gain[1] > gain[0] && w->thresholds > 0 && scale > FINEST;
         w->a->why = limit(w, links ? 4 * (double)w->s->report.rays : 8 * rays);
         if (w->a->why)
             return 0;
         if (links) {
             scale /= 2;
             solved_close(w->s);
-            if (solve_at(w, t, scale, scene, how) < 0)
+            if (solve_at(w, scale) < 0)
                 return -1;
         } else {
             rays *= 4;
@@ -149,14 +151,11 @@ int accuracy_solve(struct accuracy *a, struct solved *s, struct measured *m,
                    const struct options *o, RadDevice device, RadScene scene, RadOracle oracle,
                    const struct RadSolveOptions *how)
 {
-    struct work w = {a, s, m, o, device, seconds()};
-    struct thresholds t;
+    struct work w = {a, s, m, o, device, scene, oracle, how, radScaleOracle(oracle, 1), seconds()};
     *a = (struct accuracy){0};
-    thresholds_open(&t, oracle);
-    if (solve_at(&w, &t, t.count > 0 ? COARSEST : 1, scene, how) < 0)
+    if (solve_at(&w, w.thresholds > 0 ? COARSEST : 1) < 0)
         return -1;
-    int status =
-        o->norm == ACCURACY_L2 ? by_both(&w, &t, scene, how) : by_particles(&w, FIRST_RAYS);
+    int status = o->norm == ACCURACY_L2 ? by_both(&w) : by_particles(&w, FIRST_RAYS);
     a->seconds = seconds() - w.start;
     return status;
 }

@@ -102,10 +102,11 @@ static int refuse(const struct checkpoint *c, const char *cause)
                         cause);
 }
 
-int checkpoint_open(struct checkpoint *c, const struct options *o)
+int checkpoint_open(struct checkpoint *c, RadDevice device, const struct options *o)
 {
     *c = (struct checkpoint){.to = o->checkpoint,
                              .from = o->restart,
+                             .device = device,
                              .where = o->scene,
                              .scale = 0,
                              .passes = -1,
@@ -133,7 +134,7 @@ int checkpoint_open(struct checkpoint *c, const struct options *o)
 }
 
 /* Returns 0, or -1 after a message. */
-static int take(struct checkpoint *c, RadDevice device, RadSolution solution)
+static int take(struct checkpoint *c, RadSolution solution)
 {
     struct parts p = {0};
     const char *cause;
@@ -147,9 +148,9 @@ static int take(struct checkpoint *c, RadDevice device, RadSolution solution)
         refuse(c, cause ? cause : "another process cannot");
     } else if (radSetSolutionState(solution, p.part) < 0) {
         failed = 1;
-        if (radGetDeviceErrorMessage(device)[0])
-            refuse(c, radGetDeviceErrorMessage(device));
-        (void)radGetDeviceError(device);
+        if (radGetDeviceErrorMessage(c->device)[0])
+            refuse(c, radGetDeviceErrorMessage(c->device));
+        (void)radGetDeviceError(c->device);
     }
     free_parts(&p);
     if (failed)
@@ -164,24 +165,22 @@ static int take(struct checkpoint *c, RadDevice device, RadSolution solution)
     return 0;
 }
 
-int checkpoint_solve(struct checkpoint *c, struct solved *s, RadDevice device, RadScene scene,
-                     RadOracle oracle, const struct RadSolveOptions *how)
+int checkpoint_begin(struct checkpoint *c, RadSolution solution)
 {
-    if (solved_begin(s, device, c->where, scene, oracle, how) < 0)
-        return -1;
     c->passes = -1;
-    if (c->from && take(c, device, s->solution) < 0) {
-        solved_close(s);
+    if (c->from && take(c, solution) < 0) {
+        c->failed = 1;
         return -1;
     }
     if (c->to)
-        radSetSolutionPassFunction(s->solution, between, c);
-    if (solved_finish(s, how) == 0)
-        return 0;
-    if (c->failed) {
-        (void)radGetDeviceError(device);
-        return -1;
-    }
-    return c->dear ? report_unless(device, c->where, RAD_ERROR_LIMIT)
-                   : report_device(device, c->where);
+        radSetSolutionPassFunction(solution, between, c);
+    return 0;
+}
+
+int checkpoint_report(struct checkpoint *c)
+{
+    if (!c->failed)
+        return report_device(c->device, c->where);
+    (void)radGetDeviceError(c->device);
+    return -1;
 }

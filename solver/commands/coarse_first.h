@@ -8,16 +8,12 @@
 #include "util/solved.h"
 
 struct coarse_first {
-    double scale;   /* of the oracle's link thresholds; 1: as they are set */
-    int no_links;   /* 1: none, particles alone; scale means nothing */
-    int chosen;     /* by measurement */
-    uint64_t rays;  /* of measuring, and of a solve that a finer one came after */
-    double seconds; /* for these */
+    struct RadChoice choice;
+    int chosen; /* by measurement */
 };
 
-/* Solve with the thresholds times o->scale; where that is 0 and o->choose_scale, with no links,
- * coarse ones or as they are set, whichever leaves less to do for links and particles together. The
- * oracle's thresholds are set. Returns 0, or -1 after a message, with nothing to close. */
+/* Solve with the thresholds times o->scale; where that is 0 and o->choose_scale, with as many links
+ * as pay (radSolveScene). Returns 0, or -1 after a message, with nothing to close. */
 int coarse_first_solve(struct coarse_first *c, struct solved *s, const struct options *o,
                        RadDevice device, RadScene scene, RadOracle oracle,
                        const struct RadSolveOptions *how);

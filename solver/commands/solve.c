@@ -190,7 +190,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     struct measured measured;
     struct power_promise promise = {0};
     struct accuracy accuracy = {.reached = 1};
-    struct coarse_first coarse = {.scale = 1};
+    struct coarse_first coarse = {.choice = {.scale = 1}};
     int status =
         o->accuracy > 0
             ? accuracy_solve(&accuracy, &s, &measured, o, scene->device, scene->scene, oracle, &how)

@@ -294,7 +294,7 @@ void summary_print(const struct summary *s)
     for (int i = 0; i < s->options->replacement_count; i++)
         printf("replaced  %s\n", s->options->replacements[i]);
     printf("mesh      %u elements, of which %u leaves\n", r->elements, r->leaves);
-    const int no_links = s->coarse && s->coarse->no_links;
+    const int no_links = s->coarse && s->coarse->choice.no_links;
     if (no_links)
         printf("links     none: the same light on all surfaces, and what particles add\n");
     else
@@ -313,7 +313,7 @@ void summary_print(const struct summary *s)
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
     ranks_print(s->ranks, s->rank_count);
-    double particles = measured_seconds(s->measured) + (s->coarse ? s->coarse->seconds : 0);
+    double particles = measured_seconds(s->measured) + (s->coarse ? s->coarse->choice.seconds : 0);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, particles "
            "%.2f, output %.2f; %.0f MB\n",
            r->seconds.build + r->seconds.refine + r->seconds.iterate + particles

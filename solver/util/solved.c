@@ -23,10 +23,16 @@ int solved_finish(struct solved *s, const struct RadSolveOptions *how)
         solved_close(s);
         return -1;
     }
-    radGetElements(s->solution, &s->elements);
-    radGetLinks(s->solution, &s->links);
-    radGetReport(s->solution, &s->report);
+    solved_take(s, s->scene, s->solution);
     return 0;
+}
+
+void solved_take(struct solved *s, RadScene scene, RadSolution solution)
+{
+    *s = (struct solved){.scene = scene, .solution = solution};
+    radGetElements(solution, &s->elements);
+    radGetLinks(solution, &s->links);
+    radGetReport(solution, &s->report);
 }
 
 int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene,

@@ -26,6 +26,8 @@ int solved_finish(struct solved *s, const struct RadSolveOptions *how);
  * Returns 0, or -1 after a message that names `where`, with nothing to close. */
 int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene,
                 RadOracle oracle, const struct RadSolveOptions *how);
+/* Of a solution that is solved, which is held from now on. */
+void solved_take(struct solved *s, RadScene scene, RadSolution solution);
 void solved_close(struct solved *s);
 
 /* Why the answer is not converged, and what to do: a phrase. */

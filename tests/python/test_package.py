@@ -161,6 +161,27 @@ def test_lamp():
     assert (np.abs(coarse.error - off) < 5 * coarse.deviation + 1e-4).all(), (coarse.error, off)
 
 
+def test_links_that_pay():
+    solution = radiosity.Scene.from_arrays(CORNERS, CUBE, [0, 1, 1, 1, 1, 1], reflectance=.5, exitance=[1, 0]).solve()
+    assert solution.links.no_links == 0 and solution.links.rays > 0 and solution.report.links > 0
+    # Boxes that hang in rows below a small lamp: particles alone take less.
+    corners, faces = [CORNERS * [6, 6, 3]], [CUBE]
+    for at in np.ndindex(7, 7, 4):
+        corners.append(CORNERS * [.37, .37, .3] + [.3 + .77 * at[0], .3 + .77 * at[1], .3 + .6 * at[2]])
+        faces.append(CUBE[:, ::-1] + 8 * len(faces))
+    corners.append(CORNERS * [.2, .2, .05] + [2.9, 2.9, 2.9])
+    faces.append(CUBE[:, ::-1] + 8 * len(faces))
+    lamp = np.zeros(6 * len(faces), int)
+    lamp[-6:] = 1
+    scene = radiosity.Scene.from_arrays(np.concatenate(corners), np.concatenate(faces), lamp, reflectance=[.7, 0],
+                                        exitance=[0, 10])
+    solution = scene.solve()
+    assert solution.links.no_links == 1 and solution.report.links == 0
+    assert solution.measured.l1_faces.value < .01 and abs(solution.measured.power.value) < .01
+    linked = scene.solve(parameters={"energy": 1e-3}, correct=False, measure=False)
+    assert linked.links is None and linked.report.links > 0
+
+
 def test_errors():
     make, wrong = radiosity.Scene.from_arrays, radiosity.InvalidInput
     assert issubclass(wrong, ValueError) and issubclass(wrong, radiosity.RadiosityError)

@@ -1,0 +1,186 @@
+/* api_choice.c - as many links as pay: radSolveScene.
+ *
+ * Particles know all light without a link: places to an error t by s^2 / t^2 rays, s^2 that of one
+ * ray (engine/ray_split.c), and the means of polygons by some number that no link lowers. What lies
+ * between the two is all that links can spare. They cost rays, and discussions and sweeps, which
+ * take as long as PAIR rays for each pair discussed. So where that comes to more than a QUARTER of
+ * what can be spared before the coarsest links are done, there are none; but for a LITTLE of what
+ * polygons take anyway there may be. Scenes whose coarse links are done within FEW pairs are not
+ * asked, nor whoever says how to solve for links or wants to keep them.
+ *
+ * Links of error e, point by point, and L rays are worth these only where particles from as many
+ * would be farther off: e^2 < s^2 / L. So links come coarse first, with thresholds times COARSE,
+ * and few particles measure e and s. Finer links, of L' rays and error e', spare s^2 (1 / e'^2 - 1
+ * / e^2) rays. Were it rays that make the error, e^2 would fall with 1 / L; where elements make it,
+ * it falls more slowly: with L^-.4 on maze_8, office3 and td, whose e^2 halves as L grows six
+ * times. Then s^2 ((L' / L)^.4 - 1) / e^2 rays are spared, fewer than L' for every L' where e^2 is
+ * above s^2 / (FINER L): particles are the cheaper way, and the coarse links stay. Finer links are
+ * solved for anew: what was given up coarsely is not missed then. All follows from counts, so the
+ * choice is the same on any machine, and on any number of them: several do not stop at a limit, for
+ * each knows its own pairs alone, but ask afterwards. [Derived here]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include "engine/api.h"
+#include "util/clock.h"
+
+static const double COARSE = 16;
+static const double FINER = 5.4; /* the least of x / (x^.4 - 1), at x = 3.6 */
+/* rays of particles that take as long as discussing a pair and sweeping over what comes of it:
+ * between 2.4 and 5 in scenes of 500 to 15,000 faces */
+static const double PAIR = 4;
+/* of what could be spared: on td and office3 coarse links spare .4 of it, and leaves that the first
+ * particles tell spare some of it, too */
+static const double QUARTER = 0.25;
+static const double LITTLE = 0.125;
+static const double FEW = 1e5; /* pairs: .2 seconds of one processor */
+
+/* What a choice is made for, and where it stands. */
+struct choosing {
+    RadScene scene;
+    RadOracle oracle;
+    struct RadSolveOptions options;
+    struct RadChoiceOptions wishes;
+    struct RadChoice so_far;
+};
+
+/* Solve with links, or without any: *solution. A limit on pairs above 0 may be met. Returns 0, 1
+ * where it was, or -1, both with *solution NULL. */
+static int solve(struct choosing *x, double scale, double pairs, RadSolution *solution)
+{
+    struct RadSolveOptions options = x->options;
+    struct RadReport report;
+    RadDevice device = x->scene->device;
+    /* a limit of the caller's own that comes sooner is met as ever */
+    const int limited =
+                  pairs > 0 && !(options.limits.pairs > 0 && (double)options.limits.pairs <= pairs),
+              dear = limited && !device->ranks;
+    const double start = seconds();
+    options.no_links = x->so_far.no_links;
+    if (dear)
+        options.limits.pairs = (uint64_t)pairs;
+    x->so_far.scale = scale;
+    *solution = NULL;
+    if (radScaleOracle(x->oracle, scale) < 0)
+        return -1;
+    RadSolution s = radNewSolution(x->scene, x->oracle, &options);
+    if (!s)
+        return -1;
+    int status = 0;
+    if (x->wishes.begin && x->wishes.begin(x->wishes.user, s, &x->so_far) != 0)
+        status = api_fail(device, RAD_ERROR_CANCELLED, "given up by whoever wanted to begin it");
+    if (status == 0)
+        status = api_solve(s, dear);
+    radGetReport(s, &report);
+    if (status == 0 && limited && (double)report.pairs > pairs)
+        status = 1;
+    if (status == 0)
+        *solution = s;
+    else
+        radReleaseSolution(s);
+    x->so_far.seconds += status > 0 ? seconds() - start : 0;
+    return status;
+}
+
+/* Returns 0, or -1 with the solution released. */
+static int measure(struct choosing *x, RadSolution solution, struct RadPlaces *places)
+{
+    const double start = seconds();
+    if (radMeasurePlaces(solution, 0, places) < 0) {
+        radReleaseSolution(solution);
+        return -1;
+    }
+    x->so_far.rays += places->rays;
+    x->so_far.seconds += seconds() - start;
+    return 0;
+}
+
+/* Solve without links, and find how many pairs links may cost to be tried: *pairs. Returns 0, or
+ * -1. */
+static int solve_without(struct choosing *x, double *pairs, RadSolution *solution)
+{
+    struct RadPlaces p;
+    x->so_far.no_links = 1;
+    const int status = solve(x, 1, 0, solution);
+    x->so_far.no_links = 0;
+    if (status < 0 || measure(x, *solution, &p) < 0)
+        return -1;
+    const double places = p.ray / (RAD_CORRECT_PLACES * RAD_CORRECT_PLACES),
+                 faces = p.face / (RAD_CORRECT_NOISE * RAD_CORRECT_NOISE);
+    *pairs = fmax(QUARTER * (places - faces), LITTLE * faces) / PAIR;
+    return 0;
+}
+
+/* With coarse links, or with none where these cost too much. Returns 0, or -1. */
+static int solve_coarse(struct choosing *x, RadSolution *solution)
+{
+    const struct RadSolveOptions *o = &x->options;
+    const int may_be_none = !x->wishes.keep_links && o->closure == RAD_CLOSURE_NONE
+                            && o->solver == RAD_SOLVER_GAUSS_SEIDEL && !(o->tolerance > 0)
+                            && o->basis == RAD_BASIS_LINEAR;
+    struct RadReport r;
+    RadSolution without;
+    double pairs;
+    int status = solve(x, COARSE, may_be_none ? FEW : 0, solution);
+    if (status <= 0)
+        return status;
+    if (solve_without(x, &pairs, &without) < 0)
+        return -1;
+    status = pairs > FEW ? solve(x, COARSE, pairs, solution) : 1;
+    if (status > 0) {
+        *solution = without;
+        x->so_far.no_links = 1;
+        x->so_far.scale = 1;
+        return radScaleOracle(x->oracle, 1) < 0 ? -1 : 0;
+    }
+    radGetReport(without, &r);
+    x->so_far.seconds += r.seconds.build + r.seconds.refine + r.seconds.iterate;
+    radReleaseSolution(without);
+    return status;
+}
+
+/* Returns 0, or -1. */
+static int choose(struct choosing *x, RadSolution *solution)
+{
+    const double start = seconds();
+    struct RadPlaces p;
+    struct RadReport r;
+    if (solve_coarse(x, solution) < 0)
+        return -1;
+    if (x->so_far.no_links)
+        return 0;
+    if (measure(x, *solution, &p) < 0)
+        return -1;
+    radGetReport(*solution, &r);
+    if (!(p.links * FINER * (double)r.rays < p.ray))
+        return 0;
+    x->so_far.rays += r.rays;
+    x->so_far.seconds = seconds() - start;
+    radReleaseSolution(*solution);
+    return solve(x, 1, 0, solution);
+}
+
+RadSolution radSolveScene(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options,
+                          const struct RadChoiceOptions *wishes, struct RadChoice *choice)
+{
+    struct choosing x = {.scene = scene, .oracle = oracle};
+    RadSolution solution;
+    if (options)
+        x.options = *options;
+    if (wishes)
+        x.wishes = *wishes;
+    if (!scene || !oracle)
+        return radNewSolution(scene, oracle, NULL); /* which says what is missing */
+    if (x.options.unit || x.options.no_links) {
+        api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                 "radSolveScene chooses how many links there are: RadSolveOptions.%s must be 0",
+                 x.options.unit ? "unit" : "no_links");
+        return NULL;
+    }
+    /* nothing can be coarser or finer of an oracle without thresholds */
+    const int count = radScaleOracle(oracle, 1);
+    if (count < 0 || (count > 0 ? choose(&x, &solution) : solve(&x, 1, 0, &solution)) < 0)
+        return NULL;
+    if (choice)
+        *choice = x.so_far;
+    return solution;
+}
