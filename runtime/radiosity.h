@@ -725,6 +725,7 @@ struct RadMeasureOptions {
 #define RAD_MEASURE_SURFACES 250000u
 #define RAD_MEASURE_POLYGON 16u
 
+enum { RAD_UNSURE_NAMED = 8 };
 /* Errors are those of the light that is reflected, B - E: to E nothing can be wrong. */
 struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
@@ -741,9 +742,15 @@ struct RadErrorReport {
      * share of what it reflects; RadSceneReport.polygons: none is, surely */
     uint32_t worst;
     double worst_share;
+    /* light that ends on black backs, as counted by particles (by paths: 0), a share of what is
+     * emitted; of the polygon that takes most of it the share of that, and which it is;
+     * RadSceneReport.polygons: none. Much of it where faces are turned the wrong way. */
+    double backs, back_share;
+    uint32_t back;
     /* of radCorrect alone: polygons above a hundredth of the area that reflect, and how many of
-     * them are so dim that, mended, their light is not known to 5 % (two standard errors) */
-    uint32_t large, unsure;
+     * them are so dim that, mended, their light is not known to 5 % (two standard errors), with the
+     * first of these */
+    uint32_t large, unsure, unsure_named[RAD_UNSURE_NAMED];
     uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
     /* 1: `particles` are paths from polygons: where these tell polygons at a far lower price, as
      * under a sky, they mend and measure (engine/path_mending.c) */

@@ -104,6 +104,9 @@ a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, dear)/api_sol
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
 leaves of one size | runtime/engine/measured_error.c | s/rays \* SMALL <= landings/1e9 * SMALL <= landings/ | runtime/check_ambient
 ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflectance\[at\])/area/ | runtime/check_ambient
+backs of another face | runtime/particles/particles.c | s/tally->back\[ray_meets_back(met)\]/tally->back[0]/ | runtime/check_backs
+backs of a replicate | runtime/engine/black_backs.c | s| / REPLICATES / tally->power| / tally->power| | runtime/check_backs
+names of other faces | runtime/engine/dim_faces.c | s/faces\[d->face\[p->from\]\].input/j/ | solver/check_backs
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
 END
 }

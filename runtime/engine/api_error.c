@@ -21,20 +21,25 @@ static uint64_t least_rays(RadSolution solution, int surfaces)
 
 static struct RadErrorReport report_of(const struct measured_error *m)
 {
-    return (struct RadErrorReport){.power = m->faces.power,
-                                   .l1_faces = m->faces.l1,
-                                   .l2 = m->l2,
-                                   .p999 = m->p999,
-                                   .noise = m->faces.noise,
-                                   .reflected = m->faces.reflected,
-                                   .worst = m->faces.worst,
-                                   .worst_share = m->faces.worst_share,
-                                   .large = m->dim.large,
-                                   .unsure = m->dim.unsure,
-                                   .rays = m->rays,
-                                   .particles = m->particles,
-                                   .by_paths = (uint32_t)m->by_paths,
-                                   .seconds = m->seconds};
+    struct RadErrorReport r = {.power = m->faces.power,
+                               .l1_faces = m->faces.l1,
+                               .l2 = m->l2,
+                               .p999 = m->p999,
+                               .noise = m->faces.noise,
+                               .reflected = m->faces.reflected,
+                               .worst = m->faces.worst,
+                               .worst_share = m->faces.worst_share,
+                               .backs = m->backs.share,
+                               .back = m->backs.most,
+                               .back_share = m->backs.most_share,
+                               .large = m->dim.large,
+                               .unsure = m->dim.unsure,
+                               .rays = m->rays,
+                               .particles = m->particles,
+                               .by_paths = (uint32_t)m->by_paths,
+                               .seconds = m->seconds};
+    memcpy(r.unsure_named, m->dim.named, sizeof r.unsure_named);
+    return r;
 }
 
 int radMeasureError(RadSolution solution, const struct RadMeasureOptions *given,

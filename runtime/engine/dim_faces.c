@@ -279,6 +279,21 @@ static uint32_t count_unsure(const struct dim_faces *d)
     return unsure;
 }
 
+/* Polygons are listed by number. */
+static void name_unsure(const struct dim_faces *d, struct dim_count *count)
+{
+    const struct face *faces = d->tracer->hierarchy->faces;
+    count->unsure = 0;
+    for (uint32_t j = 0; j < d->count; j++) {
+        const struct dim_polygon *p = &d->polygon[j];
+        if (dim_is_sure(d, p))
+            continue;
+        if (count->unsure < RAD_UNSURE_NAMED)
+            count->named[count->unsure] = faces[d->face[p->from]].input;
+        count->unsure++;
+    }
+}
+
 static int all_sure(const struct dim_faces *d)
 {
     return count_unsure(d) == 0;
@@ -411,7 +426,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                           .light = element_light_shown(s),
                           .watch = watch,
                           .rays = rays};
-    *count = (struct dim_count){0, 0};
+    *count = (struct dim_count){0};
     if (!(t->lights.power > 0) || tally->particles == 0)
         return 0;
     int failed = list_polygons(&d, (uint32_t)most) < 0;
@@ -434,7 +449,8 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     }
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);
-    count->unsure = failed ? 0 : count_unsure(&d);
+    if (!failed)
+        name_unsure(&d, count);
     int changed = failed ? -1 : (int)d.count;
     close_all(&d);
     return changed;

@@ -8,11 +8,12 @@
 #include "engine/solve.h"
 #include "particles/particles.h"
 #include "particles/watch.h"
+#include "radiosity.h"
 
 /* Polygons of the size that was asked for, which reflect; and how many of them have a standard
- * error above DIM_GOAL of their light, after all. */
+ * error above DIM_GOAL of their light, after all, with the first of these by number. */
 struct dim_count {
-    uint32_t large, unsure;
+    uint32_t large, unsure, named[RAD_UNSURE_NAMED];
 };
 
 /* Irradiances of the mended solution s->mended, which `tally` has mended, are set anew: those of

@@ -83,6 +83,7 @@ static int measure_faces(struct solve *s, struct tally *tally, struct measured_e
     m->rays = tally->rays;
     m->particles = tally->particles * REPLICATES;
     m->by_paths = tally->by_paths;
+    m->backs = black_backs_met(s->problem.scene, tally);
     return face_error_open(&m->faces, &s->problem, &s->hierarchy, solve_shown(s)->irradiance,
                            tally);
 }

@@ -4,6 +4,7 @@
 #ifndef MEASURED_ERROR_H
 #define MEASURED_ERROR_H
 
+#include "engine/black_backs.h"
 #include "engine/dim_faces.h"
 #include "engine/element_error.h"
 #include "engine/ray_split.h"
@@ -16,6 +17,7 @@ struct measured_error {
     struct RadMeasure l2, p999;    /* of surfaces, where they were asked for; else all zero */
     struct element_error elements; /* NULLs until measured_elements makes it of what is counted */
     struct tally tally;
+    struct black_backs backs;
     struct dim_count dim;     /* once mended, by measure_and_mend alone */
     uint64_t rays, particles; /* particles: paths, where by_paths */
     int by_paths;

@@ -35,13 +35,15 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
     if (leaves && q)
         tally->elements = q->count;
     tally->face = calloc((size_t)REPLICATES * tally->faces * bands, sizeof *tally->face);
+    tally->back = calloc(tally->faces, sizeof *tally->back);
     tally->square = calloc(bands, sizeof *tally->square);
     if (leaves) {
         tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
         tally->made = q ? NULL : malloc(tally->elements * sizeof *tally->made);
         tally->first = q ? q->child : tally->made;
     }
-    if (!tally->face || !tally->square || (leaves && (!tally->element || !tally->first))) {
+    if (!tally->face || !tally->back || !tally->square
+        || (leaves && (!tally->element || !tally->first))) {
         tally_close(tally);
         return -1;
     }
@@ -55,6 +57,7 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
 void tally_close(struct tally *tally)
 {
     free(tally->face);
+    free(tally->back);
     free(tally->element);
     free(tally->made);
     free(tally->square);
@@ -236,6 +239,19 @@ static void reflect(const struct tally *tally, const struct tracer *t, uint32_t 
         f->share[k] *= strongest / left;
 }
 
+/* What met no front. */
+static void lose(struct tally *tally, int64_t met, const double *share, struct batch *batch)
+{
+    int64_t all = 0;
+    for (uint32_t k = 0; k < tally->bands; k++) {
+        const int64_t w = (int64_t)(share[k] * tally->one + 0.5);
+        batch->lost[k] += w;
+        all += w;
+    }
+    if (met < RAY_MEETS_NO_FRONT)
+        tally->back[ray_meets_back(met)] += all;
+}
+
 static void trace(struct tally *tally, const struct tracer *t, uint64_t index, struct batch *batch)
 {
     struct dice dice = dice_of(tally->stream * REPLICATES + (uint64_t)batch->replicate, index);
@@ -255,8 +271,7 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
             reflect(tally, t, leaf, decide(batch, index, &dice, &f.used),
                     places < WAITING ? COPIES : 1, &f);
         } else {
-            for (uint32_t k = 0; k < t->bands; k++)
-                batch->lost[k] += (int64_t)(f.share[k] * tally->one + 0.5);
+            lose(tally, met, f.share, batch);
         }
         if (f.copies > 1) {
             f.copies--;
@@ -325,6 +340,7 @@ static void part_counts(struct tally *tally, struct ranks *ranks)
         memset((void *)(uintptr_t)tally->face, 0,
                (size_t)REPLICATES * tally->faces * tally->bands * sizeof *tally->face);
         memset((void *)(uintptr_t)tally->lost, 0, sizeof tally->lost);
+        memset((void *)(uintptr_t)tally->back, 0, tally->faces * sizeof *tally->back);
     }
     if (others && !tally->parted_leaves && tally->element)
         memset((void *)(uintptr_t)tally->element, 0,
@@ -361,6 +377,7 @@ void tally_add_faces(struct tally *tally, struct ranks *ranks)
                      (size_t)REPLICATES * tally->faces * tally->bands);
     ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->lost,
                      sizeof tally->lost / sizeof **tally->lost);
+    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->back, tally->faces);
 }
 
 void tally_add_leaves(struct tally *tally, struct ranks *ranks)

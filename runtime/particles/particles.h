@@ -43,6 +43,7 @@ struct tally {
     _Atomic int64_t
         *element; /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
     _Atomic int64_t lost[REPLICATES][3]; /* [band]: what left the scene or met a black back */
+    _Atomic int64_t *back;               /* [faces]: of that, what met its back, all bands */
     /* by replicate, and of all: counts are so much more, as a share (power_balance.h) */
     double correction[REPLICATES + 1][3];
     uint32_t *made; /* owned; what `first` is of where the hierarchy has all */
@@ -83,7 +84,7 @@ void tally_add_faces(struct tally *tally, struct ranks *ranks);
 void tally_add_leaves(struct tally *tally, struct ranks *ranks);
 void tally_add(struct tally *tally, struct ranks *ranks);
 
-/* W that one count of a replicate's stands for; of `element`, a REPLICATES-th of it. */
+/* W that one count of a replicate's stands for; of `element` and `back`, a REPLICATES-th of it. */
 static inline double tally_unit(const struct tally *tally)
 {
     return tally->particles > 0 ? tally->power / ((double)tally->particles * tally->one) : 0;

@@ -35,7 +35,7 @@ int path_to_light(const struct tracer *t, uint32_t face, const double p[3], cons
 
 /* From p, just in front of the face, in the direction by the cosine that (u, v) stand for: adds to
  * h[bands] the exitance that this ray of `rays` finds (W/m2). One ray. Returns the face that it
- * meets, with p moved in front of it and `at` in its plane, or RAY_MEETS_NO_FRONT. */
+ * meets, with p moved in front of it and `at` in its plane, or what is below 0. */
 int64_t path_onward(const struct tracer *t, uint32_t face, double p[3], double u, double v,
                     const struct path_rays *rays, double *h, double at[3]);
 

@@ -59,8 +59,8 @@ static inline double dice_throw(struct dice *d)
 }
 
 /* From p, just in front of the face, in the direction by the cosine that (u, v) in [0, 1)^2 stand
- * for: the face whose front is met, with p moved just in front of it; or RAY_MEETS_NO_FRONT.
- * `at`: where it is met, in its plane; may be NULL. */
+ * for: the face whose front is met, with p moved just in front of it; or what is below 0, as
+ * rays_meet says. `at`: where it is met, in its plane; may be NULL. */
 int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u, double v,
                     double at[3]);
 

@@ -541,11 +541,11 @@ int64_t rays_meet(const struct rays *rays, const double from[3], const double di
     int behind;
     if (!first_hit(rays, from, direction, &query, &behind))
         return RAY_MEETS_NO_FRONT;
-    uint32_t face = rays->face[query.hit.primID];
-    if (behind)
-        face = rays->behind[face];
+    const uint32_t face = rays->face[query.hit.primID];
     *distance = (double)query.ray.tfar;
-    return face == BLACK_BACK ? RAY_MEETS_NO_FRONT : (int64_t)face;
+    if (!behind)
+        return face;
+    return rays->behind[face] == BLACK_BACK ? ray_meets_back(face) : (int64_t)rays->behind[face];
 }
 
 int rays_blocked(const struct rays *rays, const double from[3], const double direction[3])

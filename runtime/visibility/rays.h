@@ -49,10 +49,14 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
                          const double direction[3]);
 
 /* The face whose front the ray meets first: its index among the hierarchy's faces, the far side's
- * where it comes from behind a two-sided face; or RAY_MEETS_NO_FRONT when it leaves the scene or
- * meets a black back. *distance: in lengths of `direction`, as well as single precision knows.
- * Thread-safe; not counted among rays_count. */
+ * where it comes from behind a two-sided face; RAY_MEETS_NO_FRONT when it leaves the scene, or
+ * ray_meets_back of the face whose black back it meets, which is below that. *distance: in lengths
+ * of `direction`, as well as single precision knows. Thread-safe; not counted among rays_count. */
 enum { RAY_MEETS_NO_FRONT = -1 };
+static inline int64_t ray_meets_back(int64_t face)
+{
+    return RAY_MEETS_NO_FRONT - 1 - face;
+}
 int64_t rays_meet(const struct rays *rays, const double from[3], const double direction[3],
                   double *distance);
 

@@ -44,6 +44,19 @@ int measured_account(struct measured *m, const struct options *o, RadDevice devi
     return 0;
 }
 
+/* of what is emitted: chosen, as large an error would be told, too */
+static const double BACKS_TOLD = 0.01;
+
+/* Light that ends where nobody meant it to, as a rule. */
+static void warn_of_backs(const struct RadErrorReport *r, const char *where)
+{
+    if (r->backs > BACKS_TOLD)
+        report_warning(where, 0,
+                       "%.3g %% of the light ends on black backs, %.3g %% of that on the back of "
+                       "face %u: if faces are turned the wrong way, turn them, or take --two-sided",
+                       100 * r->backs, 100 * r->back_share, (unsigned)r->back);
+}
+
 /* "2.1 % (1.9 to 2.3)", or "at most 1.9 %" where nothing is surely off. */
 static void print_share(FILE *out, const struct RadMeasure *m)
 {
@@ -68,6 +81,8 @@ static void print_power(FILE *out, const struct RadErrorReport *r)
 void measured_warn(const struct measured *m, const char *where)
 {
     const struct RadMeasure *l1 = &m->error.l1_faces;
+    if (m->measured)
+        warn_of_backs(&m->error, where);
     if (m->measured && l1->value > MEASURED_WARNING)
         report_warning(
             where, 0,
@@ -93,9 +108,14 @@ double measured_seconds(const struct measured *m)
 /* Large faces that too little light meets for it to be known. */
 static void print_unsure(const struct measured *m)
 {
-    if (m->mended && m->alone.unsure > 0)
-        printf("dim       %u of %u large faces are too dim for their light to be known to 5 %%\n",
-               (unsigned)m->alone.unsure, (unsigned)m->alone.large);
+    const struct RadErrorReport *r = &m->alone;
+    if (!m->mended || r->unsure == 0)
+        return;
+    printf("dim       %u of %u large faces are too dim for their light to be known to 5 %%: face",
+           (unsigned)r->unsure, (unsigned)r->large);
+    for (uint32_t i = 0; i < r->unsure && i < RAD_UNSURE_NAMED; i++)
+        printf("%s %u", i > 0 ? "," : r->unsure > 1 ? "s" : "", (unsigned)r->unsure_named[i]);
+    puts(r->unsure > RAD_UNSURE_NAMED ? ", ..." : "");
 }
 
 void measured_print(const struct measured *m, uint32_t polygons, int no_links)
@@ -128,6 +148,10 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
     else
         printf("; no large face is surely wrong\n");
     print_unsure(m);
+    if (e->backs > 0)
+        printf("backs     %.3g %% of the emitted light ends on black backs, %.3g %% of that on the "
+               "back of face %u\n",
+               100 * e->backs, 100 * e->back_share, (unsigned)e->back);
     if (!(e->l2.high > 0))
         return;
     fputs("surfaces  root mean square off by ", stdout);
@@ -159,6 +183,15 @@ static json_t *report_json(const struct RadErrorReport *r)
                      (int)r->by_paths, "reflected", r->reflected, "seconds", r->seconds);
 }
 
+/* null: no back is met. */
+static json_t *backs_json(const struct RadErrorReport *r)
+{
+    if (!(r->backs > 0))
+        return json_null();
+    return json_pack("{s:f, s:I, s:f}", "share", r->backs, "face", (json_int_t)r->back,
+                     "share_of_that", r->back_share);
+}
+
 /* The large face that is most surely wrong; null: none is. */
 static json_t *worst_json(const struct RadErrorReport *r, uint32_t polygons)
 {
@@ -172,11 +205,22 @@ json_t *measured_json(const struct measured *m, uint32_t polygons)
     if (!m->measured && !m->accounted)
         return json_null();
     json_t *all = m->measured ? report_json(&m->error) : json_object();
-    if (m->measured)
+    if (m->measured) {
         json_object_set_new(all, "worst", worst_json(&m->error, polygons));
+        json_object_set_new(all, "backs", backs_json(&m->error));
+    }
     if (m->accounted)
         json_object_set_new(all, "account", account_json(&m->account));
     return all;
+}
+
+/* The first of the large faces that are not known. */
+static json_t *unsure_json(const struct RadErrorReport *r)
+{
+    json_t *faces = json_array();
+    for (uint32_t i = 0; i < r->unsure && i < RAD_UNSURE_NAMED; i++)
+        json_array_append_new(faces, json_integer(r->unsure_named[i]));
+    return faces;
 }
 
 json_t *mended_json(const struct measured *m)
@@ -186,5 +230,6 @@ json_t *mended_json(const struct measured *m)
     json_t *all = report_json(&m->alone);
     json_object_set_new(all, "large_faces", json_integer(m->alone.large));
     json_object_set_new(all, "large_faces_unsure", json_integer(m->alone.unsure));
+    json_object_set_new(all, "first_unsure", unsure_json(&m->alone));
     return all;
 }
