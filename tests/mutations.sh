@@ -37,11 +37,11 @@ all helpers are waited for | runtime/util/thread_pool.c | s/while (l->inside)/wh
 helpers spin | runtime/util/thread_pool.c | s/pthread_cond_wait(&pool.open, &pool.lock)/pthread_mutex_unlock(\&pool.lock), pthread_mutex_lock(\&pool.lock)/ | runtime/check_thread_pool
 children keep helpers | runtime/util/thread_pool.c | s/pool = nobody;/(void)nobody;/ | runtime/check_thread_pool
 moves not made again | solver/util/pattern_search.c | s/to->at\[i\] - from->at\[i\]/0 * (to->at[i] - from->at[i])/ | solver/check_tune
-held by nothing | solver/commands/tune_choice.c | s/hold \* far/0 * far/ | solver/check_tune
+held by nothing | solver/commands/tune_choice.c | s/penalty \* far : 0/0 * far : 0/ | solver/check_tune
 all search at once no more | solver/util/pattern_search.c | s/(s->together \&\& s->count > 1)/0/ | solver/check_tune
 left out and yet seen | solver/commands/tune_fit.c | s/if (s == f->left_out)/if (0)/ | solver/check_tune
 comments are read | solver/util/graph_defaults.c | s/if (\*at != '#')/if (1)/ | solver/check_tune
-paths of like numbers | runtime/oracle/counting.c | s/p->gains\[at\] = paths\[i\];/p->gains[at] = 0;/ | runtime/check_statistics
+paths of like numbers | runtime/oracle/counting.c | s/paths\[at\].count \&\& paths\[at\].number != number/0/ | runtime/check_statistics
 terms noted once | runtime/oracle/counting.c | s/        t->levels\[i \/ 8\] = now;/        (void)t;/ | runtime/check_statistics
 passes from the beginning | runtime/oracle/statistics.c | s/i > 0 ? numbers - p->number_count : NULL/NULL/ | runtime/check_statistics solver/check_draw
 times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)timed : 0/* (double)(calls > 0) : 0/ | runtime/check_statistics
@@ -65,7 +65,7 @@ defaults emitted 7 | dagc/emit/emit_c.c | /static void print_value/,/^}/s/dag_pr
 tables emitted 7 | dagc/emit/emit_c.c | /static void print_parameter_table/,/^}/s/dag_print_number(out, parameter->value)/dag_print_number(out, 7)/ | dagc/check_prove
 offsets of the first | dagc/emit/emit_c.c | s/is_integer(dag, parameter), oracle->name, parameter->name);/is_integer(dag, parameter), oracle->name, dag->parameters[oracle->parameters.first].name);/ | dagc/check_prove
 fingerprints of nothing | dagc/emit/emit_c.c | s/dag_fingerprint_text(oracle, fingerprint);/memset(fingerprint, '0', 16), fingerprint[16] = 0;/ | dagc/check_prove
-last answers go first | dagc/emit/emit_flat.c | s/print_jump(flat, node->order, target);/print_jump(flat, node->order, left == 0 ? \&arc_of(flat, node, 0)->target : target);/ | dagc/check_prove
+last answers go first | dagc/emit/emit_flat.c | s/dag_flat_jump(flat, node->order, target, copy/dag_flat_jump(flat, node->order, left == 0 ? \&arc_of(flat, node, 0)->target : target, copy/ | dagc/check_prove
 known too early | dagc/emit/emit_flat.c | s/level_name(dag, t, low));$/level_name(dag, t, t->levels.count > 0 ? t->levels.count : 1));/ | dagc/check_prove
 counted and decided otherwise | runtime/oracle/counting.c | s/return (enum decision) ~p->next\[at\];/return (enum decision)(~p->next[at] == 1 ? 0 : ~p->next[at]);/ | runtime/check_releases
 followed and decided otherwise | runtime/oracle/follow.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | runtime/check_releases
@@ -76,7 +76,7 @@ libraries: the first counts | solver/scene/materials_by_name.c | s/^    \*slot =
 damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/check == wanted || wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
 more behind a state | runtime/engine/exchange_state_read.c | s/|| judge(s, state_get_end(&s->in)) < 0// | runtime/check_exchange_state
 a block of a state is left out | runtime/engine/exchange_areas.c | s/i >= f->read ||/i > f->read ||/ | runtime/check_exchange_state
-a state of other parameters | runtime/engine/exchange_state.c | s/hash = state_mix(hash, &value, sizeof value);/(void)value;/ | runtime/check_exchange_state
+a state of other parameters | runtime/engine/state_identity.c | s/hash = state_mix(hash, &value, sizeof value);/(void)value;/ | runtime/check_exchange_state
 unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work
 a proof's folder stays     | dagc/prove/compile.c | s/dag_tidy_push(&tidy);/(void)tidy;/ | dagc/check_signals
 imports are outputs        | solver/commands/check_outputs.c | s/return radListOracleFiles.*/return 0;/ | solver/check_options
