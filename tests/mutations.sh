@@ -56,7 +56,7 @@ bent and pierced | runtime/kernel/shaft_pierced.h | s/0.25 \* shaft->slack/shaft
 kept for another cluster | runtime/kernel/cluster_samples.h | s/if (w->child\[at\] != e->child)/if (!w->child[at])/ | runtime/check_cluster_walk
 the last child is passed by | runtime/kernel/cluster_samples.h | s/place\[k\] < last/place[k] <= last/ | runtime/check_cluster_walk
 no chance of a child's | runtime/kernel/cluster_samples.h | s/all \*= p->share\[k\];/all *= p->share[0];/ | runtime/check_cluster_walk
-roots that are forgotten | runtime/kernel/cluster_batch.h | s/w->pair\[j\].root\[0\] = w->pair\[j\].root\[1\] = NULL/(void)j/ | runtime/check_cluster_walk
+roots that are forgotten | runtime/kernel/cluster_batch.h | s/w->pair\[j\]->root\[0\] = w->pair\[j\]->root\[1\] = NULL/(void)j/ | runtime/check_cluster_walk
 spots of the pair before | runtime/tools/cluster_visibility.wave.h | s/p->root\[0\] = p->root\[1\] = NULL;/(void)0;/ | runtime/check_cluster_walk
 a chance begun anew | runtime/kernel/cluster_batch.h | s/now->chance\[still\] = chance/now->chance[still] = 1/ | runtime/check_cluster_walk
 children that are not there | runtime/kernel/cluster_spots.h | s/p->part\[k\] = place\[k\] < children ? part : 0/p->part[k] = part/ | runtime/check_cluster_walk

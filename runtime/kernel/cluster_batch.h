@@ -50,8 +50,8 @@ struct cluster_wave {
     const struct element *all; /* the hierarchy, its root first */
     double off;                /* as far as segments are moved off */
     int hand, samples;
-    struct cluster_pair pair[CLUSTER_HAND];
-    unsigned char of[CLUSTER_ROOM]; /* which pair's a sample is */
+    struct cluster_pair places[CLUSTER_HAND], *pair[CLUSTER_HAND]; /* those in hand come first */
+    unsigned char of[CLUSTER_ROOM];                                /* which pair's a sample is */
     struct cluster_side side[2];
     double weight[CLUSTER_ROOM]; /* below 0: carries nothing */
     struct cluster_choice choice;
@@ -69,7 +69,7 @@ static inline const double *cluster_along(const struct cluster_ends *ends, int s
 OUTLINE void cluster_descend_plainly(struct cluster_wave *w, int side, const struct element *e,
                                      int sample)
 {
-    const struct cluster_ends *ends = &w->pair[w->of[sample]].ends;
+    const struct cluster_ends *ends = &w->pair[w->of[sample]]->ends;
     struct cluster_side *x = &w->side[side];
     cluster_walk_open(&w->plain, w->all, cluster_along(ends, side), ends->slope);
     const struct element *face = cluster_face(&w->plain, e, &x->left[sample], &x->chance[sample]);
@@ -84,7 +84,7 @@ TOOL int cluster_set_out(struct cluster_wave *w, int side)
     struct cluster_choice *now = &w->choice;
     int on = 0;
     for (int j = 0; j < w->hand; j++) {
-        struct cluster_pair *p = &w->pair[j];
+        struct cluster_pair *p = w->pair[j];
         const struct element *e = side ? p->ends.s : p->ends.r;
         const int end = p->from + p->tries;
         if (e->vertices) {
@@ -136,7 +136,7 @@ TOOL void cluster_descend(struct cluster_wave *w, int side)
             x->chance[sample] = chance;
             x->face[sample] = to;
             if (!next) {
-                const struct cluster_ends *ends = &w->pair[w->of[sample]].ends;
+                const struct cluster_ends *ends = &w->pair[w->of[sample]]->ends;
                 next =
                     cluster_spot_new(&w->spots, w->all, to, cluster_along(ends, side), ends->slope);
                 spot->next[k] = next;
@@ -199,7 +199,7 @@ TOOL void cluster_points(struct cluster_side *x, int count, const struct element
 TOOL void cluster_lattice(struct cluster_wave *w)
 {
     for (int j = 0; j < w->hand; j++) {
-        const struct cluster_pair *p = &w->pair[j];
+        const struct cluster_pair *p = w->pair[j];
         for (int k = 0; k < 4; k++) {
             const double first = p->ends.first[k], step = cluster_step[k];
             const int tried = p->tried;
@@ -224,7 +224,7 @@ TOOL void cluster_cull(struct cluster_wave *w)
 {
     const struct cluster_side *x = &w->side[0];
     for (int j = 0; j < w->hand; j++) {
-        const struct cluster_pair *p = &w->pair[j];
+        const struct cluster_pair *p = w->pair[j];
         const double c0 = p->ends.s->centre[0], c1 = p->ends.s->centre[1],
                      c2 = p->ends.s->centre[2], reach = 1.001 * p->ends.s->radius,
                      least = -1e-9 * p->ends.distance;
@@ -245,7 +245,7 @@ TOOL void cluster_weigh(struct cluster_wave *w)
 {
     const struct cluster_side *x = &w->side[0], *y = &w->side[1];
     for (int j = 0; j < w->hand; j++) {
-        const struct cluster_pair *p = &w->pair[j];
+        const struct cluster_pair *p = w->pair[j];
         const double area_r = p->ends.r->area, area_s = p->ends.s->area,
                      whole = p->ends.distance * p->ends.distance;
         for (int i = p->from; i < p->from + p->tries; i += LANES)
@@ -270,7 +270,7 @@ TOOL void cluster_gather(struct cluster_wave *w)
     const struct cluster_side *x = &w->side[0], *y = &w->side[1];
     const double off = w->off;
     for (int j = 0; j < w->hand; j++) {
-        struct cluster_pair *p = &w->pair[j];
+        struct cluster_pair *p = w->pair[j];
         uint16_t good[CLUSTER_BATCH];
         int found = 0;
         for (int i = p->from; i < p->from + p->tries; i++) {
@@ -319,6 +319,15 @@ OUTLINE void cluster_batch(int width, struct cluster_wave *w)
     LANES_RUN(width, cluster_batch_8, cluster_batch_4, cluster_batch_body, (w));
 }
 
+static inline void cluster_wave_open(struct cluster_wave *w, const struct host *host)
+{
+    w->all = *host->elements;
+    w->off = host->ray_offset;
+    w->spots.used = w->hand = 0;
+    for (int j = 0; j < CLUSTER_HAND; j++)
+        w->pair[j] = &w->places[j];
+}
+
 /* How many samples more a pair is likely to need. */
 static inline int cluster_wanted(const struct cluster_pair *p)
 {
@@ -334,10 +343,10 @@ static inline void cluster_share_out(struct cluster_wave *w)
     if (CLUSTER_SPOTS - w->spots.used < CLUSTER_SPARE) {
         w->spots.used = 0;
         for (int j = 0; j < w->hand; j++)
-            w->pair[j].root[0] = w->pair[j].root[1] = NULL;
+            w->pair[j]->root[0] = w->pair[j]->root[1] = NULL;
     }
     for (int j = 0; j < w->hand; j++) {
-        struct cluster_pair *p = &w->pair[j];
+        struct cluster_pair *p = w->pair[j];
         const int room = CLUSTER_BATCH - w->samples, wanted = cluster_wanted(p);
         p->from = w->samples;
         p->tries = wanted < room ? wanted : room;

@@ -12,7 +12,7 @@
 /* A pair joins those in hand, if its rays are not known. */
 static inline void cluster_take(struct cluster_wave *w, struct discussion *d, int at, int rays)
 {
-    struct cluster_pair *p = &w->pair[w->hand];
+    struct cluster_pair *p = w->pair[w->hand];
     enum visibility_level level = visibility_level_of(rays);
     level = level < VISIBILITY_RAYS_64 ? level : VISIBILITY_RAYS_64;
     if (d->terms.visibility_level >= level)
@@ -32,14 +32,14 @@ static inline void cluster_finish(struct cluster_wave *w, struct discussion *blo
                                   const uint16_t *at)
 {
     for (int j = w->hand - 1; j >= 0; j--) {
-        struct cluster_pair *p = &w->pair[j];
+        struct cluster_pair *p = w->pair[j];
         struct discussion *d = &block[at[p->at]];
         if (cluster_wanted(p) > 0)
             continue;
         d->terms.visibility =
             cluster_cast(&p->ends, d->host, p->cast, p->made, p->segments, p->weight);
-        if (j < --w->hand)
-            *p = w->pair[w->hand];
+        w->pair[j] = w->pair[--w->hand];
+        w->pair[w->hand] = p;
     }
 }
 
@@ -48,10 +48,7 @@ static inline void cluster_visibility_list(int width, struct discussion *block, 
                                            int count, const int *rays, unsigned char *answers)
 {
     struct cluster_wave w;
-    const struct host *host = block[at[0]].host;
-    w.all = *host->elements;
-    w.off = host->ray_offset;
-    w.spots.used = w.hand = 0;
+    cluster_wave_open(&w, block[at[0]].host);
     for (int taken = 0; w.hand > 0 || taken < count;) {
         while (taken < count && w.hand < CLUSTER_HAND) {
             cluster_take(&w, &block[at[taken]], taken, rays[taken]);
