@@ -48,14 +48,21 @@ times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)t
 rays of all nodes before | runtime/oracle/counting.c | s/t->host.rays - rays/t->host.rays + 0 * rays/ | runtime/check_instrumented
 dead arcs alive | solver/output/graph_drawing.c | s/.dead = counted \&\& count == 0/.dead = 0/ | solver/check_draw
 arcs to the first leaf | solver/output/graph_drawing.c | s/            a->leaf = (int)i;/            a->leaf = 0;/ | solver/check_draw
-behind though some is in front | runtime/tools/cluster_visibility.h | s/a->normal) + 1.001 \* s->radius/a->normal) + 0.5 * s->radius/ | runtime/check_cluster_walk
-a sample less | runtime/tools/cluster_visibility.h | s/(tried + 0.5) \* step/(tried + 1.5) * step/ | runtime/check_cluster_walk
+behind though some is in front | runtime/kernel/cluster_samples.h | s/a->normal) + 1.001 \* s->radius/a->normal) + 0.5 * s->radius/ | runtime/check_cluster_walk
+a sample less | runtime/kernel/cluster_samples.h | s/(tried + 0.5) \* cluster_step/(tried + 1.5) * cluster_step/ | runtime/check_cluster_walk
 pierced through edges' lines | runtime/kernel/shaft_pierced.h | s/+ g.z\[1\] \* c2 > g.at\[1\]/+ g.z[1] * c2 > g.at[1] - 0.3/ | runtime/check_pierced
 pierced from one side | runtime/kernel/shaft_pierced.h | s/(a \* other < 0)/(a * other != 0)/ | runtime/check_pierced
 bent and pierced | runtime/kernel/shaft_pierced.h | s/0.25 \* shaft->slack/shaft->flat/ | runtime/check_pierced
-kept for another cluster | runtime/tools/cluster_visibility.h | s/if (w->child\[at\] != e->child)/if (!w->child[at])/ | runtime/check_cluster_walk
-the last child is passed by | runtime/tools/cluster_visibility.h | s/place\[k\] < last/place[k] <= last/ | runtime/check_cluster_walk
-no chance of a child's | runtime/tools/cluster_visibility.h | s/all \*= p->share\[k\];/all *= p->share[0];/ | runtime/check_cluster_walk
+kept for another cluster | runtime/kernel/cluster_samples.h | s/if (w->child\[at\] != e->child)/if (!w->child[at])/ | runtime/check_cluster_walk
+the last child is passed by | runtime/kernel/cluster_samples.h | s/place\[k\] < last/place[k] <= last/ | runtime/check_cluster_walk
+no chance of a child's | runtime/kernel/cluster_samples.h | s/all \*= p->share\[k\];/all *= p->share[0];/ | runtime/check_cluster_walk
+roots that are forgotten | runtime/kernel/cluster_batch.h | s/w->pair\[j\]->root\[0\] = w->pair\[j\]->root\[1\] = NULL/(void)j/ | runtime/check_cluster_walk
+spots of the pair before | runtime/tools/cluster_visibility.wave.h | s/p->root\[0\] = p->root\[1\] = NULL;/(void)0;/ | runtime/check_cluster_walk
+a chance begun anew | runtime/kernel/cluster_batch.h | s/now->chance\[still\] = chance/now->chance[still] = 1/ | runtime/check_cluster_walk
+children that are not there | runtime/kernel/cluster_spots.h | s/p->part\[k\] = place\[k\] < children ? part : 0/p->part[k] = part/ | runtime/check_cluster_walk
+what is known is cast again | runtime/tools/cluster_visibility.wave.h | s/if (d->terms.visibility_level >= level)/if (0)/ | runtime/check_cluster_walk
+moved off twice as far | runtime/kernel/cluster_batch.h | s/x->at\[k\]\[at\] + off \*/x->at[k][at] + 2 * off */ | runtime/check_cluster_walk
+columns out of order | runtime/kernel/rows.h | s/column\[1\] = __builtin_shufflevector(f, h, 0, 1, 4, 5)/column[1] = __builtin_shufflevector(f, h, 0, 1, 5, 4)/ | runtime/check_cluster_walk
 rules without their last points | runtime/engine/linear_coupling.c | s/at->count; i += FEW/at->count - FEW + 1; i += FEW/ | runtime/check_linear
 the emitter's slopes mixed | runtime/engine/linear_coupling.c | s/sum_2\[k\] += sent \* phi_2/sum_2[k] += sent * (phi_2 + 0.1 * phi_1)/ | runtime/check_linear
 seen from the other's front | runtime/engine/linear_coupling.c | s/(&at, r->normal/(\&at, s->normal/ | runtime/check_linear

@@ -1,6 +1,7 @@
 /* check_cluster_walk.c - faces that samples choose below a cluster: the bits of a walk that asks
  * one child after the other and keeps nothing, at every width of vectors; and rays between two
- * clusters: as many and the same as where every sample goes down both trees.
+ * clusters: as many and the same as where every sample goes down both trees; and of lists of pairs,
+ * as the form for a block casts them.
  *
  * Random trees, of up to four children a cluster and of up to eight; cones of any width, normals
  * beside the direction and against it, some children without area. Walks of one kind keep what
@@ -12,7 +13,7 @@
 #include "kernel/cluster_facing.h"
 #include "runtime/even_numbers.h"
 #include "suite.h"
-#include "tools/cluster_visibility.h"
+#include "tools/cluster_visibility.wave.h"
 
 enum { MOST = 4000, WALKS = 60, EACH = 200 };
 
@@ -89,6 +90,7 @@ START_TEST(test_walks)
             for (int j = 0; j < EACH; j++) {
                 double u[2], chance[2];
                 u[0] = u[1] = j ? even() : 0;
+                chance[1] = 1;
                 const struct element *wanted = plainly(&tree[0], v, slope, &u[0], &chance[0]),
                                      *e = cluster_face(&walk, &tree[0], &u[1], &chance[1]);
                 ck_assert_msg(e == wanted, "tree %d, width %d, walk %d", i, width, j);
@@ -231,6 +233,105 @@ START_TEST(test_rays)
 }
 END_TEST
 
+/* A number for all calls so far, whatever their order, of where all their segments lie. */
+static uint64_t calls_cast;
+
+static uint64_t cast_any_order(const struct host *host, int count, const struct segment *segments)
+{
+    uint64_t hash = (uint64_t)count, hits = 0;
+    (void)host;
+    for (int i = 0; i < count; i++) {
+        uint64_t bits[6];
+        memcpy(bits, &segments[i], sizeof bits);
+        for (int k = 0; k < 6; k++)
+            hash = hash64(hash + bits[k]);
+        hits |= (uint64_t)(segments[i].from[2] > 0) << i;
+    }
+    calls_cast += hash;
+    return hits;
+}
+
+enum { ROOTS = 10, LIST = 60 };
+
+/* Roots from 1 on, near and far from each other; 0 is nobody's. */
+static void stand_all(int i, int most)
+{
+    memset(tree, 0, sizeof tree);
+    used = 1 + ROOTS;
+    for (uint32_t k = 1; k <= ROOTS; k++) {
+        const double spread = i % 3 ? 1 : 3,
+                     middle[3] = {spread * even(), spread * even(), 0.5 * even()};
+        grow(k, k % 4 ? 5 : 0, most);
+        stand(k, middle, i % 2 ? 0.2 : 0.7);
+        tree[k].id = k + 100 * (uint64_t)i;
+        tree[k].area += 1;
+    }
+}
+
+START_TEST(test_lists)
+{
+    static struct discussion one[LIST], block[LIST];
+    static const int cast[] = {1, 4, 16, 64};
+    const struct element *all = tree;
+    struct host host;
+    long partial = 0, several = 0, nothing = 0, plain = 0;
+    memset(&host, 0, sizeof host);
+    host.occluded = cast_any_order;
+    host.elements = &all;
+    host.ray_offset = 1e-5;
+    for (int i = 0; i < 60; i++) {
+        int rays[LIST];
+        uint16_t at[LIST];
+        unsigned char answers[LIST];
+        enum cluster_visibility_answer wanted[LIST];
+        stand_all(i, i % 4 ? 4 : 8);
+        const int count = i % 5 ? LIST : 1 + i / 5;
+        for (int width = 1; width <= lanes_width(); width *= width == 1 ? 4 : 2) {
+            memset(block, 0, sizeof block);
+            for (int k = 0; k < count; k++) {
+                struct discussion *d = &block[k];
+                const uint32_t r = 1 + (uint32_t)(even() * ROOTS);
+                const uint32_t s = 1 + (r + (uint32_t)(even() * (ROOTS - 1))) % ROOTS;
+                d->receiver = &tree[r];
+                d->emitter = &tree[s];
+                d->host = &host;
+                rays[k] = cast[(int)(even() * 4)];
+                at[k] = (uint16_t)(count - 1 - k);
+                if (k % 7 == 3) { /* known already, or not as well */
+                    d->terms.visibility = 0.25;
+                    d->terms.visibility_level = VISIBILITY_RAYS_4;
+                }
+                plain += tree[r].children > CLUSTER_FEW || tree[s].children > CLUSTER_FEW;
+            }
+            memcpy(one, block, sizeof one);
+            calls_cast = 0;
+            for (int k = 0; k < count; k++)
+                wanted[k] = tool_cluster_visibility(&one[at[k]], rays[k]);
+            const uint64_t were = calls_cast;
+            calls_cast = 0;
+            cluster_visibility_list(width, block, at, count, rays, answers);
+            ck_assert_msg(calls_cast == were, "list %d, width %d: other segments", i, width);
+            for (int k = 0; k < count; k++) {
+                const struct terms *t = &block[at[k]].terms, *u = &one[at[k]].terms;
+                ck_assert_msg(t->visibility == u->visibility
+                                  && t->visibility_level == u->visibility_level
+                                  && answers[k] == wanted[k],
+                              "list %d, width %d, pair %d: %g, not %g", i, width, k, t->visibility,
+                              u->visibility);
+                partial += t->visibility > 0 && t->visibility < 1;
+                nothing += !(t->visibility > 0);
+            }
+            several++;
+        }
+    }
+    printf("%ld lists as pair by pair; %ld see each other in part, %ld not; %ld sample by sample\n",
+           several, partial, nothing, plain);
+    ck_assert_int_gt(partial, 300);
+    ck_assert_int_gt(nothing, 100);
+    ck_assert_int_gt(plain, 100);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("cluster walk");
@@ -238,6 +339,7 @@ int main(void)
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_walks);
     tcase_add_test(c, test_rays);
+    tcase_add_test(c, test_lists);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
