@@ -100,6 +100,11 @@ halves are added | runtime/engine/face_error.c | s/x\[i + step\] = a - b/x[i + s
 links at any price | solver/commands/coarse_first.c | s/x->may_be_none ? FEW : 0/0 * FEW/ | solver/check_coarse_first
 leaves of one size | runtime/engine/measured_error.c | s/rays \* SMALL <= landings/1e9 * SMALL <= landings/ | runtime/check_ambient
 ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflectance\[at\])/area/ | runtime/check_ambient
+all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine\[1\] - mine\[0\])/tally->held = h->face_count/ | runtime/check_own_counts
+letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
+quarters by their place | runtime/hierarchy/quarters.c | s/return q->common + low;/return q->common;/ | runtime/check_own_counts
+children of several are not told | runtime/engine/mend_places.c | s/            p->at\[c\] = p->held++;/            (void)c;/ | runtime/check_own_counts
+numbers of faces by their order | runtime/particles/tally.c | s/r \* tally->faces + f/r * tally->held + tally_place(tally, f)/ | runtime/check_own_counts
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
 END
 }
