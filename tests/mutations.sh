@@ -114,6 +114,11 @@ ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflect
 backs of another face | runtime/particles/particles.c | s/tally->back\[ray_meets_back(met)\]/tally->back[0]/ | runtime/check_backs
 backs of a replicate | runtime/engine/black_backs.c | s| / REPLICATES / tally->power| / tally->power| | runtime/check_backs
 names of other faces | runtime/engine/dim_faces.c | s/faces\[d->face\[p->from\]\].input/j/ | solver/check_backs
+all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine\[1\] - mine\[0\])/tally->held = h->face_count/ | runtime/check_own_counts
+letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
+quarters by their place | runtime/hierarchy/quarters.c | s/return q->common + low;/return q->common;/ | runtime/check_own_counts
+children of several are not told | runtime/engine/mend_places.c | s/            p->at\[c\] = p->held++;/            (void)c;/ | runtime/check_own_counts
+what others have is counted here | runtime/particles/landing_mail.c | s/    if (tally_holds(tally, face)) {/    if (1) {/ | runtime/check_own_counts
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
 END
 }

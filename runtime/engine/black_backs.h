@@ -12,7 +12,9 @@ struct black_backs {
     double most_share; /* of what all backs take */
 };
 
-/* Of a tally whose counts are added. Paths from polygons see no light that ends: then nothing. */
-struct black_backs black_backs_met(const struct scene *scene, const struct tally *tally);
+/* Of a tally whose counts are added, on all ranks alike. Paths from polygons see no light that
+ * ends: then none. Returns 0, or -1 when out of memory. */
+int black_backs_find(struct black_backs *b, const struct scene *scene, const struct tally *tally,
+                     struct ranks *ranks);
 
 #endif

@@ -11,19 +11,25 @@
 #include "engine/dim_belief.h"
 #include "kernel/constants.h"
 
-double dim_count_light(const struct dim_faces *d, const struct tally *tally,
-                       const struct dim_polygon *p, double *variance)
+void dim_count_replicates(const struct dim_faces *d, const struct tally *tally,
+                          const struct dim_polygon *p, double sum[REPLICATES])
 {
     const struct tracer *t = d->tracer;
+    for (int r = 0; r < REPLICATES; r++) {
+        sum[r] = 0;
+        for (uint32_t i = p->from; i < p->to; i++)
+            for (uint32_t k = 0; k < t->bands && tally_holds(tally, d->face[i]); k++)
+                sum[r] += t->reflectance[(size_t)d->face[i] * t->bands + k]
+                          * tally_face(tally, r, d->face[i], k) / p->area;
+    }
+}
+
+double dim_light_of(const double sum[REPLICATES], double *variance)
+{
     double mean = 0, square = 0;
     for (int r = 0; r < REPLICATES; r++) {
-        double sum = 0;
-        for (uint32_t i = p->from; i < p->to; i++)
-            for (uint32_t k = 0; k < t->bands; k++)
-                sum += t->reflectance[(size_t)d->face[i] * t->bands + k]
-                       * tally_face(tally, r, d->face[i], k) / p->area;
-        mean += sum / REPLICATES;
-        square += sum * sum / REPLICATES;
+        mean += sum[r] / REPLICATES;
+        square += sum[r] * sum[r] / REPLICATES;
     }
     *variance = fmax(square - mean * mean, 0) / (REPLICATES - 1);
     return mean;

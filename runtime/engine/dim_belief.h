@@ -10,9 +10,12 @@
  */
 enum { DIM_ENOUGH = 4 };
 
-/* What a polygon reflects by a tally, mean over it, all bands (W/m2), and the variance of that. */
-double dim_count_light(const struct dim_faces *d, const struct tally *tally,
-                       const struct dim_polygon *p, double *variance);
+/* What a polygon reflects by each replicate of a tally, mean over it, all bands (W/m2): of those of
+ * its faces whose counts are here. */
+void dim_count_replicates(const struct dim_faces *d, const struct tally *tally,
+                          const struct dim_polygon *p, double sum[REPLICATES]);
+/* The mean of them, and the variance of that. */
+double dim_light_of(const double sum[REPLICATES], double *variance);
 
 /* The variance of one path, of those that have been traced. */
 double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p);

@@ -134,11 +134,12 @@ static void list_faces(struct dim_faces *d)
 
 /* What mending says of a polygon, and how sure that is: by how replicates differ, and as if one
  * more particle might have met it; or by how far it is from what these counted. */
-static void weigh(const struct dim_faces *d, const struct tally *tally, struct dim_polygon *p)
+static void weigh(const struct dim_faces *d, const struct tally *tally,
+                  const double sum[REPLICATES], struct dim_polygon *p)
 {
     const struct tracer *t = d->tracer;
     double one = tally->by_paths ? 0 : tally_power_of_one(tally) / p->area, noise,
-           counted = dim_count_light(d, tally, p, &noise);
+           counted = dim_light_of(sum, &noise);
     for (uint32_t i = p->from; i < p->to; i++)
         for (uint32_t k = 0; k < t->bands; k++) {
             size_t at = (size_t)t->hierarchy->face_element[d->face[i]] * t->bands + k;
@@ -150,21 +151,40 @@ static void weigh(const struct dim_faces *d, const struct tally *tally, struct d
     p->variance = fmax(noise + one * one, (p->light - counted) * (p->light - counted));
 }
 
-/* Those that are dim; the others are forgotten. */
-static void keep_dim(struct dim_faces *d, const struct tally *tally)
+/* Of each polygon what all ranks have counted: [REPLICATES] each. NULL when out of memory. */
+static double *count_polygons(const struct dim_faces *d, const struct tally *tally)
+{
+    double *sum = malloc(((size_t)d->count * REPLICATES + 1) * sizeof *sum);
+    if (ranks_any(d->tracer->ranks, !sum)) {
+        free(sum);
+        return NULL;
+    }
+    for (size_t j = 0; j < d->count; j++)
+        dim_count_replicates(d, tally, &d->polygon[j], &sum[j * REPLICATES]);
+    if (tally->quarters)
+        ranks_add(d->tracer->ranks, RANKS_PARTICLES, sum, (size_t)d->count * REPLICATES);
+    return sum;
+}
+
+/* Those that are dim; the others are forgotten. Returns 0, or -1 when out of memory. */
+static int keep_dim(struct dim_faces *d, const struct tally *tally)
 {
     uint32_t kept = 0, polygons = d->solve->problem.scene->input_count;
-    for (uint32_t p = 0; p < polygons; p++) {
+    double *sum = count_polygons(d, tally);
+    const int failed = !sum;
+    for (uint32_t p = 0; p < polygons && sum; p++) {
         if (d->of[p] == NOT_DIM)
             continue;
         struct dim_polygon at = d->polygon[d->of[p]]; /* places rise with p */
-        weigh(d, tally, &at);
+        weigh(d, tally, &sum[(size_t)d->of[p] * REPLICATES], &at);
         double sure = DIM_GOAL * at.light;
         d->of[p] = at.variance > sure * sure ? kept : NOT_DIM;
         if (d->of[p] != NOT_DIM)
             d->polygon[kept++] = at;
     }
     d->count = kept;
+    free(sum);
+    return failed ? -1 : 0;
 }
 
 /* The irradiance (all bands, W/m2) that brings DIM_BELIEVED particles to DIM_LARGE of the area.
@@ -429,14 +449,14 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     *count = (struct dim_count){0};
     if (!(t->lights.power > 0) || tally->particles == 0)
         return 0;
-    int failed = list_polygons(&d, (uint32_t)most) < 0;
+    int failed = ranks_any(t->ranks, list_polygons(&d, (uint32_t)most) < 0);
     if (!failed) {
         list_faces(&d);
         count->large = d.count;
-        keep_dim(&d, tally);
+        failed = keep_dim(&d, tally) < 0;
         d.believed = believed(&d, tally);
         /* paths end in the light of all quarters, wherever they are */
-        failed = d.count > 0 && own_quarters_share(s) < 0;
+        failed = failed || (d.count > 0 && own_quarters_share(s) < 0);
         d.light = element_light_shown(s);
         for (uint32_t i = 0; i < t->hierarchy->face_count && !failed; i++)
             for (uint32_t k = 0; k < t->bands; k++)

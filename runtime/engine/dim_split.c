@@ -20,7 +20,9 @@ static void note(struct dim_faces *d, const struct tally *split)
     const uint32_t bands = d->tracer->bands;
     for (uint32_t j = 0; j < d->count; j++) {
         struct dim_polygon *p = &d->polygon[j];
-        p->split_light = dim_count_light(d, split, p, &p->split_variance);
+        double sum[REPLICATES];
+        dim_count_replicates(d, split, p, sum);
+        p->split_light = dim_light_of(sum, &p->split_variance);
         for (uint32_t k = 0; k < bands; k++) {
             p->split[k] = 0;
             for (uint32_t i = p->from; i < p->to; i++)

@@ -35,6 +35,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/face_error.h"
+#include "engine/polygon_rows.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "util/thread_pool.h"
@@ -56,6 +57,7 @@ struct bin {
 };
 
 struct counted {
+    struct polygon_rows rows; /* the polygons whose values are here */
     uint32_t bands;
     size_t values;         /* polygons * bands */
     double *solved;        /* [values]: R~ (W) */
@@ -152,49 +154,35 @@ static double shape_of(struct bin bins[BINS], double square, double *errors)
     return low;
 }
 
-/* Sums over the faces of a polygon: of each replicate, and behind the last, of what was solved. */
-struct summing {
-    const struct counted *c;
-    const struct problem *p;
-    const struct hierarchy *h;
-    const double *irradiance; /* [element * bands + band] */
-    const struct tally *tally;
-};
-
-static void sum_replicates(const void *summing, size_t from, size_t to)
+/* Sums over the faces of a polygon: what was solved, and of each replicate. Returns 0, or -1 when
+ * out of memory. */
+static int sum_polygons(struct counted *c, const struct problem *p, const struct hierarchy *h,
+                        const double *irradiance, const struct tally *tally)
 {
-    const struct summing *s = summing;
-    const struct hierarchy *h = s->h;
-    uint32_t bands = s->c->bands;
-    for (int r = (int)from; r < (int)to; r++)
-        for (uint32_t f = 0; f < h->face_count; f++)
-            for (uint32_t k = 0; k < bands; k++) {
-                size_t at = (size_t)h->faces[f].input * bands + k, e = h->face_element[f];
-                double rho = s->p->reflectance[(size_t)f * bands + k];
-                if (r < REPLICATES)
-                    s->c->replicate[(size_t)r * s->c->values + at] +=
-                        rho * tally_face(s->tally, r, f, k);
-                else
-                    s->c->solved[at] += rho * h->elements[e].area * s->irradiance[e * bands + k];
-            }
-}
-
-static void sum_polygons(struct counted *c, const struct problem *p, const struct hierarchy *h,
-                         const double *irradiance, const struct tally *tally)
-{
-    const struct summing s = {c, p, h, irradiance, tally};
-    thread_pool_run(p->options.threads, REPLICATES + 1, 1, sum_replicates, &s);
+    for (uint32_t f = 0; f < h->face_count; f++) {
+        const uint32_t row = polygon_row(&c->rows, h->faces[f].input);
+        const size_t e = h->face_element[f];
+        for (uint32_t k = 0; k < c->bands && row != NO_ROW; k++)
+            c->solved[(size_t)row * c->bands + k] += p->reflectance[(size_t)f * c->bands + k]
+                                                     * h->elements[e].area
+                                                     * irradiance[e * c->bands + k];
+    }
+    if (polygon_rows_add(&c->rows, p, h, tally, c->replicate) < 0)
+        return -1;
     for (int r = 0; r < REPLICATES; r++)
         for (size_t i = 0; i < c->values; i++)
             c->mean[i] += c->replicate[(size_t)r * c->values + i] / REPLICATES;
     for (size_t i = 0; i < c->values; i++)
         c->reflected += c->mean[i];
+    polygon_rows_sum(&c->rows, &c->reflected, 1);
+    return 0;
 }
 
 static void counted_close(struct counted *c)
 {
     if (!c)
         return;
+    polygon_rows_close(&c->rows);
     free(c->solved);
     free(c->replicate);
     free(c->mean);
@@ -221,11 +209,12 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
 {
     double seen[CLASSES] = {0}, chance[CLASSES] = {0}, count[CLASSES] = {0},
            one = tally_power_of_one(tally);
-    double *rho = c->deviation;                  /* until s is known */
-    for (uint32_t f = 0; f < h->face_count; f++) /* sides of one polygon have one rho */
-        for (uint32_t k = 0; k < c->bands; k++)
-            rho[(size_t)h->faces[f].input * c->bands + k] =
-                p->reflectance[(size_t)f * c->bands + k];
+    double *rho = c->deviation;                    /* until s is known */
+    for (uint32_t f = 0; f < h->face_count; f++) { /* sides of one polygon have one rho */
+        const uint32_t row = polygon_row(&c->rows, h->faces[f].input);
+        for (uint32_t k = 0; k < c->bands && row != NO_ROW; k++)
+            rho[(size_t)row * c->bands + k] = p->reflectance[(size_t)f * c->bands + k];
+    }
     for (size_t i = 0; i < c->values; i++) {
         double by_chance = 0, particles = 0;
         if (rho[i] > 0) {
@@ -245,6 +234,9 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
         count[c->class[i]] += by_chance > 0;
         c->deviation[i] = by_chance;
     }
+    polygon_rows_sum(&c->rows, seen, CLASSES);
+    polygon_rows_sum(&c->rows, chance, CLASSES);
+    polygon_rows_sum(&c->rows, count, CLASSES);
     /* of few particles replicates may have met none of a class: as if one polygon more were by
      * chance */
     for (int k = 0; k < CLASSES && !tally->by_paths; k++) {
@@ -302,6 +294,9 @@ static void find_scales(struct counted *c)
         normal[c->class[i]] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
         count[c->class[i]]++;
     }
+    polygon_rows_sum(&c->rows, apart, CLASSES);
+    polygon_rows_sum(&c->rows, normal, CLASSES);
+    polygon_rows_sum(&c->rows, count, CLASSES);
     for (int k = 0; k < CLASSES; k++)
         c->scale[k] =
             normal[k] > 0
@@ -331,6 +326,11 @@ static void find_errors(struct counted *c)
         b->count++;
         seen[c->class[i]] += off * off - rms * rms;
     }
+    _Static_assert(sizeof(struct bin) == 6 * sizeof(double), "bins are added as they stand");
+    polygon_rows_sum(&c->rows, &c->bin[0][0].s, (size_t)CLASSES * BINS * 6);
+    polygon_rows_sum(&c->rows, seen, CLASSES);
+    polygon_rows_sum(&c->rows, &c->sure, 1);
+    polygon_rows_sum(&c->rows, &c->sure_square, 1);
     for (int k = 0; k < CLASSES; k++) {
         int filled = 0;
         double spread = 0, at = 0, less = 0, more = 0;
@@ -360,11 +360,12 @@ static void find_errors(struct counted *c)
 static double variance_of_sum(const struct counted *c)
 {
     double sum[REPLICATES] = {0}, mean = 0, differ = 0;
-    for (int r = 0; r < REPLICATES; r++) {
+    for (int r = 0; r < REPLICATES; r++)
         for (size_t i = 0; i < c->values; i++)
             sum[r] += c->weight[i] * c->replicate[(size_t)r * c->values + i];
+    polygon_rows_sum(&c->rows, sum, REPLICATES);
+    for (int r = 0; r < REPLICATES; r++)
         mean += sum[r] / REPLICATES;
-    }
     for (int r = 0; r < REPLICATES; r++)
         differ += (sum[r] - mean) * (sum[r] - mean);
     return differ / (REPLICATES * (REPLICATES - 1.0));
@@ -436,6 +437,7 @@ static struct RadMeasure measure_l1(struct counted *c)
         c->weight[i] = -slope - value / all;
         independent += slope * slope * s * s;
     }
+    polygon_rows_sum(&c->rows, &independent, 1);
     double seen = variance_of_sum(c), chance = now.variance + c->sure_square;
     double common = chance > 0 ? fmax(0.25, 1 + (seen - independent) / chance) : 1;
     /* A sum that is small by luck must not make the interval that of a better measurement. */
@@ -453,10 +455,30 @@ static struct RadMeasure measure_power(struct counted *c)
         solved += c->solved[i];
         c->weight[i] = 1;
     }
+    polygon_rows_sum(&c->rows, &solved, 1);
     double deviation = sqrt(variance_of_sum(c)) * solved / (c->reflected * c->reflected);
     double value = solved / c->reflected - 1;
     return (struct RadMeasure){value, value - T_QUANTILE * deviation,
                                value + T_QUANTILE * deviation};
+}
+
+/* What is shown of all ranks' polygons: `surest`, how surely this rank's worst one is wrong. */
+static void show_all(struct face_error *f, const struct counted *c, double surest)
+{
+    struct ranks *ranks = c->rows.ranks;
+    const size_t values = (size_t)f->polygons * f->bands;
+    double most = surest, first;
+    if (!ranks)
+        return;
+    ranks_add(ranks, RANKS_PARTICLES, f->error, values); /* to zeros */
+    ranks_add(ranks, RANKS_PARTICLES, f->deviation, values);
+    ranks_most(ranks, RANKS_PARTICLES, &most, 1);
+    first = surest < most ? -(double)f->polygons : -(double)f->worst;
+    ranks_most(ranks, RANKS_PARTICLES, &first, 1);
+    if (f->worst != (uint32_t)-first)
+        f->worst_share = 0;
+    f->worst = (uint32_t)-first;
+    ranks_add(ranks, RANKS_PARTICLES, &f->worst_share, 1);
 }
 
 /* Errors per polygon, and the worst. areas: of all sides (m2), [polygons]; all: of the scene. */
@@ -464,11 +486,13 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
                           double all)
 {
     double surest = 0;
-    for (uint32_t i = 0; i < f->polygons; i++) {
+    for (uint32_t row = 0; row < c->rows.count; row++) {
+        const uint32_t i = polygon_of_row(&c->rows, row);
         double off = 0, reflected = 0, noise = 0;
-        for (size_t j = (size_t)i * c->bands; j < ((size_t)i + 1) * c->bands; j++) {
-            f->error[j] = areas[i] > 0 ? (c->solved[j] - c->mean[j]) / areas[i] : 0;
-            f->deviation[j] = areas[i] > 0 ? c->deviation[j] / areas[i] : 0;
+        for (size_t k = 0; k < c->bands; k++) {
+            const size_t j = (size_t)row * c->bands + k, to = (size_t)i * c->bands + k;
+            f->error[to] = areas[i] > 0 ? (c->solved[j] - c->mean[j]) / areas[i] : 0;
+            f->deviation[to] = areas[i] > 0 ? c->deviation[j] / areas[i] : 0;
             off += c->solved[j] - c->mean[j];
             reflected += c->mean[j];
             noise += c->deviation[j]; /* one particle has all bands: their noise is alike */
@@ -481,17 +505,22 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
         f->worst = i;
         f->worst_share = off / reflected;
     }
+    show_all(f, c, surest);
 }
 
 /* Everything counted, and how noisy it is. Returns NULL when out of memory. */
 static struct counted *counted_open(const struct problem *p, const struct hierarchy *h,
                                     const double *irradiance, const struct tally *tally)
 {
+    struct ranks *ranks = tally->quarters ? p->options.ranks : NULL;
     struct counted *c = calloc(1, sizeof *c);
-    if (!c)
+    int failed = ranks_any(ranks, !c) || polygon_rows_open(&c->rows, p, h, tally) < 0;
+    if (failed) {
+        counted_close(c);
         return NULL;
+    }
     c->bands = p->bands;
-    c->values = (size_t)p->scene->input_count * p->bands;
+    c->values = (size_t)c->rows.count * p->bands;
     size_t n = c->values + 1;
     c->solved = calloc(n, sizeof *c->solved);
     c->replicate = calloc(n * REPLICATES, sizeof *c->replicate);
@@ -499,11 +528,11 @@ static struct counted *counted_open(const struct problem *p, const struct hierar
     c->deviation = calloc(n, sizeof *c->deviation);
     c->weight = calloc(n, sizeof *c->weight);
     c->class = calloc(n, sizeof *c->class);
-    if (!c->solved || !c->replicate || !c->mean || !c->deviation || !c->weight || !c->class) {
+    failed = !c->solved || !c->replicate || !c->mean || !c->deviation || !c->weight || !c->class;
+    if (ranks_any(ranks, failed) || sum_polygons(c, p, h, irradiance, tally) < 0) {
         counted_close(c);
         return NULL;
     }
-    sum_polygons(c, p, h, irradiance, tally);
     find_deviations(c, p, h, tally);
     return c;
 }
@@ -516,6 +545,8 @@ static struct RadMeasure expected_noise(const struct counted *c)
         mean += sqrt(2 / LAMBERT_PI) * c->deviation[i];
         variance += (1 - 2 / LAMBERT_PI) * c->deviation[i] * c->deviation[i];
     }
+    polygon_rows_sum(&c->rows, &mean, 1);
+    polygon_rows_sum(&c->rows, &variance, 1);
     double off = NORMAL_QUANTILE * sqrt(variance);
     return (struct RadMeasure){mean / c->reflected, fmax(0, mean - off) / c->reflected,
                                (mean + off) / c->reflected};
@@ -547,7 +578,8 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     *f = (struct face_error){.polygons = polygons, .bands = p->bands, .worst = polygons};
     struct counted *c = counted_open(p, h, irradiance, tally);
     double *areas = calloc((size_t)polygons + 1, sizeof *areas);
-    if (!c || !areas || open_lists(f) < 0) {
+    const int failed = !c || !areas || open_lists(f) < 0;
+    if (ranks_any(tally->quarters ? p->options.ranks : NULL, failed)) {
         counted_close(c);
         free(areas);
         face_error_close(f);

@@ -83,7 +83,8 @@ static int measure_faces(struct solve *s, struct tally *tally, struct measured_e
     m->rays = tally->rays;
     m->particles = tally->particles * REPLICATES;
     m->by_paths = tally->by_paths;
-    m->backs = black_backs_met(s->problem.scene, tally);
+    if (black_backs_find(&m->backs, s->problem.scene, tally, s->problem.options.ranks) < 0)
+        return -1;
     return face_error_open(&m->faces, &s->problem, &s->hierarchy, solve_shown(s)->irradiance,
                            tally);
 }
@@ -255,6 +256,13 @@ static int mend_by(struct solve *s, const struct tally *tally, double *irradianc
                : 0;
 }
 
+/* What goes with them, once nobody asks for what leaves have been counted on. */
+static int follow_counted(struct solve *s, struct tally *tally)
+{
+    tally_forget_leaves(tally);
+    return follow_irradiance(s);
+}
+
 /* By what particles counted, and then by paths, if there are any. */
 static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
                 const struct tally *paths, struct measured_error *alone, uint64_t *spent)
@@ -268,7 +276,7 @@ static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
     if (!ranks_any(s->problem.options.ranks, !m->radiosity || !m->irradiance)) {
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
         if (mend_by(s, tally, m->irradiance) == 0
-            && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_irradiance(s) == 0
+            && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_counted(s, tally) == 0
             && mend_dim(s, t, paths ? paths : tally, alone, spent) == 0)
             return 0;
     }
@@ -405,19 +413,6 @@ static int look(struct solve *s, const struct tracer *t, struct tally *tally,
     return s->by_paths < 0 ? -1 : 0;
 }
 
-/* What has been counted, as one number: a sum, so that no order shows. */
-static uint64_t fingerprint(const struct tally *tally)
-{
-    const size_t faces = (size_t)REPLICATES * tally->faces * tally->bands,
-                 elements = (size_t)tally->elements * tally->bands;
-    uint64_t sum = 0;
-    for (size_t i = 0; i < faces; i++)
-        sum += hash64(i + hash64((uint64_t)tally->face[i]));
-    for (size_t i = 0; tally->element && i < elements; i++)
-        sum += hash64(faces + i + hash64((uint64_t)tally->element[i]));
-    return sum;
-}
-
 int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct measured_error *alone,
                      const char **cause)
 {
@@ -438,11 +433,17 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
              || tally_open(&tally, &t, MEND_STREAM, 1) < 0 || look(s, &t, &tally, &paths, goal) < 0
              || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
              || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
-             || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
-             || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
+             || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0;
+    s->report.particles = 0;
+    if (!failed) { /* while faces are dealt out as they were */
+        tally_add(&tally, t.ranks);
+        s->report.particles = tally_fingerprint(&tally, t.ranks)
+                              + (s->by_paths ? tally_fingerprint(&paths.tally, t.ranks) : 0);
+    }
+    failed = failed || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
              || detail_merge(s, elements) < 0 || (!goal->own && own_quarters_share(s) < 0);
-    s->report.particles =
-        failed ? 0 : fingerprint(&tally) + (s->by_paths ? fingerprint(&paths.tally) : 0);
+    if (failed)
+        s->report.particles = 0;
     alone->rays = tally.rays + paths.paths.rays;
     path_tally_close(&paths);
     tally_close(&tally);

@@ -30,6 +30,7 @@
 #include <string.h>
 #include "engine/leaf_count.h"
 #include "engine/mend.h"
+#include "engine/mend_places.h"
 #include "hierarchy/children_first.h"
 #include "hierarchy/levels.h"
 #include "kernel/constants.h"
@@ -63,10 +64,11 @@ struct mending {
     const struct light_operator *op;
     const struct tally *tally;
     uint32_t bands;
-    double *irradiance; /* [element * bands + band]: by links, then mended (W/m2) */
-    double *linked;     /* [element * bands + band]: power by links (W) */
-    double *received;   /* the same, counted, mean of all replicates */
-    double *replicate;  /* [REPLICATES][built * bands]: by each (W) */
+    struct mend_places places; /* of the elements that are mended here */
+    double *irradiance;        /* [element * bands + band]: by links, then mended (W/m2) */
+    double *linked;            /* [place * bands + band]: power by links (W) */
+    double *received;          /* the same, counted, mean of all replicates */
+    double *replicate;         /* [REPLICATES][places.built * bands]: by each (W) */
     struct levels levels;
     /* of the level that is mended now: elements that have children; what each adds to the sums */
     const uint32_t *parent;
@@ -75,20 +77,19 @@ struct mending {
     /* of this level, by the logarithm of their particles */
     struct sight class[CLASSES];
     struct trend trend[CLASSES];
-    struct sight *kin; /* [element]: of what hangs two levels below it, on this level */
+    struct sight *kin; /* [place]: of what hangs two levels below it, on this level */
 };
-
-/* Is it this rank's to mend? Clusters all mend alike. */
-static int is_mine(const struct mending *m, uint32_t e)
-{
-    return !m->op->hierarchy->elements[e].vertices || shares_looks_at(&m->op->shares, e);
-}
 
 enum { CHILDREN = 255, RUN = 256 /* elements that a thread takes at once */ };
 
-static size_t place(const struct mending *m, uint32_t element, uint32_t band)
+/* Where the irradiance of an element is, and what is known of it while it is mended. */
+static size_t at_element(const struct mending *m, uint32_t element, uint32_t band)
 {
     return (size_t)element * m->bands + band;
+}
+static size_t place(const struct mending *m, uint32_t element, uint32_t band)
+{
+    return (size_t)mend_place(&m->places, element) * m->bands + band;
 }
 
 /* q~ of each child of e in a band. */
@@ -108,8 +109,9 @@ static void shares_by_links(const struct mending *m, uint32_t e, uint32_t k, dou
 static double correction(const struct mending *m, uint32_t e, uint32_t k)
 {
     double linked = m->linked[place(m, e, k)];
-    return linked > 0 ? m->irradiance[place(m, e, k)] * m->op->hierarchy->elements[e].area / linked
-                      : 1;
+    return linked > 0
+               ? m->irradiance[at_element(m, e, k)] * m->op->hierarchy->elements[e].area / linked
+               : 1;
 }
 
 /* What the children of e lack of `given`, foretold: the correction of e and of its siblings, as a
@@ -164,10 +166,9 @@ static double noise_of_chance(const struct mending *m, uint32_t k, double given,
 static double noise_of_replicates(const struct mending *m, uint32_t e, uint32_t j, uint32_t k,
                                   double given, double off)
 {
-    const struct hierarchy *h = m->op->hierarchy;
     double seen = 0, whole = m->received[place(m, e, k)];
     for (int r = 0; r < REPLICATES; r++) {
-        const double *of = &m->replicate[(size_t)r * h->built * m->bands];
+        const double *of = &m->replicate[(size_t)r * m->places.built * m->bands];
         double d = of[place(m, j, k)] - given * of[place(m, e, k)] - off;
         seen += d * d / (REPLICATES * (REPLICATES - 1.0));
     }
@@ -231,7 +232,7 @@ static struct note note_trend(const struct mending *m, uint32_t e, uint32_t k)
     struct note note = {.class = NOTHING};
     double given[CHILDREN], lack[CHILDREN], whole = m->received[place(m, e, k)];
     shares_by_links(m, e, k, given);
-    if (!(whole > 0) || !is_mine(m, e) || !foretell(m, e, k, given, lack))
+    if (!(whole > 0) || !foretell(m, e, k, given, lack))
         return note;
     note.class = class_of(m, e, k);
     note.trend = (struct trend){0, 0, 0};
@@ -263,7 +264,7 @@ static void add_sight(struct sight *sum, const struct sight *own)
 static struct note note_sight(const struct mending *m, uint32_t e, uint32_t k)
 {
     double given[CHILDREN];
-    if (!(m->received[place(m, e, k)] > 0) || !is_mine(m, e))
+    if (!(m->received[place(m, e, k)] > 0))
         return (struct note){.class = NOTHING};
     foretold_shares(m, e, k, given);
     return (struct note){
@@ -274,7 +275,8 @@ static struct note note_sight(const struct mending *m, uint32_t e, uint32_t k)
  * enough to tell, and of its class. */
 static double above_noise(const struct mending *m, uint32_t e, uint32_t k)
 {
-    const struct sight *class = &m->class[class_of(m, e, k)], *kin = &m->kin[elder(m, e)];
+    const struct sight *class = &m->class[class_of(m, e, k)],
+                       *kin = &m->kin[mend_place(&m->places, elder(m, e))];
     double n = kin->elements;
     return (MEND_KIN * class->seen / class->noise + n * kin->seen / kin->noise) / (MEND_KIN + n);
 }
@@ -283,7 +285,7 @@ static double above_noise(const struct mending *m, uint32_t e, uint32_t k)
 static void share_out(const struct mending *m, uint32_t e, uint32_t k)
 {
     const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
-    double given[CHILDREN], whole = m->irradiance[place(m, e, k)] * at->area;
+    double given[CHILDREN], whole = m->irradiance[at_element(m, e, k)] * at->area;
     double counted = m->received[place(m, e, k)], belief = 0;
     foretold_shares(m, e, k, given);
     if (counted > 0) {
@@ -295,7 +297,7 @@ static void share_out(const struct mending *m, uint32_t e, uint32_t k)
         double share = given[c];
         if (belief > 0)
             share += belief * (m->received[place(m, j, k)] / counted - given[c]);
-        m->irradiance[place(m, j, k)] = share * whole / elements[j].area;
+        m->irradiance[at_element(m, j, k)] = share * whole / elements[j].area;
     }
 }
 
@@ -319,7 +321,7 @@ static void share_all_out(const void *mending, size_t from, size_t to)
 {
     const struct mending *m = mending;
     for (size_t i = from; i < to; i++)
-        for (uint32_t k = 0; k < m->bands && is_mine(m, m->parent[i]); k++)
+        for (uint32_t k = 0; k < m->bands; k++)
             share_out(m, m->parent[i], k);
 }
 
@@ -338,20 +340,27 @@ static void add_trends(struct mending *m)
     }
 }
 
+/* Is the sight of an element for its class this rank's to add? */
+static int is_noted(const struct mending *m, uint32_t e)
+{
+    return !m->op->shares.common || shares_counts(&m->op->shares, e);
+}
+
 static void add_sights(struct mending *m)
 {
     const size_t notes = (size_t)m->parents * m->bands;
     memset(m->class, 0, sizeof m->class);
     for (size_t i = 0; i < notes; i++)
         if (m->note[i].class != NOTHING)
-            m->kin[m->note[i].elder] = (struct sight){0, 0, 0};
+            m->kin[mend_place(&m->places, m->note[i].elder)] = (struct sight){0, 0, 0};
     for (size_t i = 0; i < notes; i++) {
         const struct note *note = &m->note[i];
         if (note->class == NOTHING)
             continue;
         const struct sight *own = &note->sight;
-        add_sight(&m->class[note->class], own);
-        add_sight(&m->kin[note->elder], own);
+        if (is_noted(m, m->parent[i / m->bands]))
+            add_sight(&m->class[note->class], own);
+        add_sight(&m->kin[mend_place(&m->places, note->elder)], own);
     }
 }
 
@@ -373,12 +382,10 @@ static void mend_level(struct mending *m, uint32_t level)
     m->parents = m->levels.from[level + 1] - m->levels.from[level];
     thread_pool_run(threads, m->parents, RUN, note_trends, m);
     add_trends(m);
-    if (level > 0)
-        add_up(m, m->trend);
+    add_up(m, m->trend);
     thread_pool_run(threads, m->parents, RUN, note_sights, m);
     add_sights(m);
-    if (level > 0)
-        add_up(m, m->class);
+    add_up(m, m->class);
     thread_pool_run(threads, m->parents, RUN, share_all_out, m);
 }
 
@@ -387,37 +394,39 @@ static void mend_root(struct mending *m, uint32_t k)
     const struct hierarchy *h = m->op->hierarchy;
     double noise = 0, off = m->received[place(m, 0, k)] - m->linked[place(m, 0, k)];
     for (int r = 0; r < REPLICATES; r++) {
-        double d = m->replicate[(size_t)r * h->built * m->bands + place(m, 0, k)]
+        double d = m->replicate[(size_t)r * m->places.built * m->bands + place(m, 0, k)]
                    - m->received[place(m, 0, k)];
         noise += d * d / (REPLICATES * (REPLICATES - 1.0));
     }
     const struct sight own = {off * off, noise, 1};
     double belief = believed(&own, &own, own.seen / own.noise);
-    m->irradiance[place(m, 0, k)] =
+    m->irradiance[at_element(m, 0, k)] =
         (m->linked[place(m, 0, k)] + belief * off) / h->elements[0].area;
 }
 
-/* Powers of leaves and faces, */
+/* Powers of leaves and faces, of which others tell theirs; */
 static void fill_some(const void *mending, size_t from, size_t to)
 {
     const struct mending *m = mending;
     const struct hierarchy *h = m->op->hierarchy;
-    for (uint32_t e = (uint32_t)from; e < to; e++)
-        for (uint32_t k = 0; k < m->bands; k++) {
-            const struct element *at = &h->elements[e];
-            m->linked[place(m, e, k)] = at->children ? 0 : at->area * m->irradiance[place(m, e, k)];
-            m->received[place(m, e, k)] =
-                at->children || !at->vertices ? 0 : leaf_count(m->tally, h, m->irradiance, e, k);
+    for (uint32_t e = (uint32_t)from; e < to; e++) {
+        const struct element *at = &h->elements[e];
+        const int added = mend_is_added(m->op, e);
+        for (uint32_t k = 0; k < m->bands && mend_is_here(&m->places, e); k++) {
+            m->linked[place(m, e, k)] =
+                at->children || !added ? 0 : at->area * m->irradiance[at_element(m, e, k)];
+            m->received[place(m, e, k)] = at->children || !at->vertices || !added
+                                              ? 0
+                                              : leaf_count(m->tally, h, m->irradiance, e, k);
             for (int r = 0; r < REPLICATES && e < h->built; r++)
-                m->replicate[(size_t)r * h->built * m->bands + place(m, e, k)] =
-                    at->vertices ? tally_face(m->tally, r, at->face, k) : 0;
+                m->replicate[(size_t)r * m->places.built * m->bands + place(m, e, k)] =
+                    at->vertices && added ? tally_face(m->tally, r, at->face, k) : 0;
         }
+    }
 }
 
-/* then sums from there up. */
-static void add_children(const void *mending, uint32_t e)
+static void sum_children(const struct mending *m, uint32_t e)
 {
-    const struct mending *m = mending;
     const struct hierarchy *h = m->op->hierarchy;
     const struct element *at = &h->elements[e];
     for (uint32_t j = at->child + at->children; j-- > at->child;)
@@ -425,10 +434,35 @@ static void add_children(const void *mending, uint32_t e)
             m->linked[place(m, e, k)] += m->linked[place(m, j, k)];
             m->received[place(m, e, k)] += m->received[place(m, j, k)];
             for (int r = 0; r < REPLICATES && j < h->built; r++) {
-                double *of = &m->replicate[(size_t)r * h->built * m->bands];
+                double *of = &m->replicate[(size_t)r * m->places.built * m->bands];
                 of[place(m, e, k)] += of[place(m, j, k)];
             }
         }
+}
+
+/* sums from there up, of what is this rank's alone; */
+static void add_children(const void *mending, uint32_t e)
+{
+    const struct mending *m = mending;
+    if (mend_is_added(m->op, e) && !mend_is_shared(m->op, e))
+        sum_children(m, e);
+}
+
+/* and then of what all have: each rank tells of its own, to zeros, and all sum in one order, so
+ * that these have the bits of one process. */
+static void add_told(const struct mending *m)
+{
+    struct ranks *ranks = m->op->shares.ranks;
+    const size_t values = (size_t)m->places.told * m->bands;
+    if (!m->places.at)
+        return;
+    ranks_add(ranks, RANKS_PARTICLES, m->linked, values);
+    ranks_add(ranks, RANKS_PARTICLES, m->received, values);
+    for (size_t r = 0; r < REPLICATES; r++)
+        ranks_add(ranks, RANKS_PARTICLES, &m->replicate[r * m->places.built * m->bands], values);
+    for (uint32_t e = m->op->hierarchy->built; e-- > 0;) /* children follow their parents */
+        if (mend_is_shared(m->op, e))
+            sum_children(m, e);
 }
 
 /* The most parents that a level has. */
@@ -453,38 +487,53 @@ static uint32_t levels_of_all(const struct mending *m)
     return (uint32_t)count;
 }
 
+static int open_all(struct mending *m)
+{
+    const struct light_operator *op = m->op;
+    int failed = levels_open(&m->levels, op->hierarchy) < 0;
+    failed |= mend_places_open(&m->places, op) < 0;
+    if (ranks_any(op->shares.ranks, failed))
+        return -1;
+    if (m->places.at)
+        mend_places_levels(op, &m->levels);
+    const size_t values = (size_t)m->places.count * m->bands + 1;
+    m->linked = malloc(values * sizeof *m->linked);
+    m->received = malloc(values * sizeof *m->received);
+    m->kin = malloc(((size_t)m->places.count + 1) * sizeof *m->kin);
+    m->replicate =
+        malloc(((size_t)REPLICATES * m->places.built * m->bands + 1) * sizeof *m->replicate);
+    m->note = malloc(((size_t)widest(&m->levels) * m->bands + 1) * sizeof *m->note);
+    failed = !m->linked || !m->received || !m->replicate || !m->kin || !m->note;
+    return ranks_any(op->shares.ranks, failed) ? -1 : 0;
+}
+
+static void close_all(struct mending *m)
+{
+    mend_places_close(&m->places);
+    levels_close(&m->levels);
+    free(m->note);
+    free(m->kin);
+    free(m->linked);
+    free(m->received);
+    free(m->replicate);
+}
+
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance)
 {
     const struct hierarchy *h = op->hierarchy;
     const int threads = op->problem->options.threads;
-    size_t values = (size_t)h->count * tally->bands;
     struct mending m = {.op = op, .tally = tally, .bands = tally->bands, .irradiance = irradiance};
-    int failed = levels_open(&m.levels, h) < 0;
-    if (ranks_any(op->shares.ranks, failed)) {
-        levels_close(&m.levels);
-        return -1;
-    }
-    m.linked = malloc(values * sizeof *m.linked);
-    m.received = malloc(values * sizeof *m.received);
-    m.kin = malloc((size_t)h->count * sizeof *m.kin);
-    m.replicate = malloc((size_t)REPLICATES * h->built * m.bands * sizeof *m.replicate);
-    m.note = malloc(((size_t)widest(&m.levels) * m.bands + 1) * sizeof *m.note);
-    failed = !m.linked || !m.received || !m.replicate || !m.kin || !m.note;
-    failed = ranks_any(op->shares.ranks, failed);
+    const int failed = open_all(&m) < 0;
     if (!failed) {
         thread_pool_run(threads, h->count, RUN, fill_some, &m);
         children_first(h, threads, add_children, &m);
-        for (uint32_t k = 0; k < m.bands; k++)
+        add_told(&m);
+        for (uint32_t k = 0; k < m.bands && mend_is_here(&m.places, 0); k++)
             mend_root(&m, k);
         const uint32_t count = levels_of_all(&m);
         for (uint32_t level = 0; level < count; level++)
             mend_level(&m, level);
     }
-    levels_close(&m.levels);
-    free(m.note);
-    free(m.kin);
-    free(m.linked);
-    free(m.received);
-    free(m.replicate);
+    close_all(&m);
     return failed ? -1 : 0;
 }

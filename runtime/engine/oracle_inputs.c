@@ -8,6 +8,7 @@
  * solid covers has no light of its own and does not count.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdlib.h>
 #include "engine/oracle_inputs.h"
 #include "hierarchy/children_first.h"
 #include "kernel/constants.h"
@@ -44,9 +45,16 @@ void oracle_inputs_guess(const struct problem *p, struct hierarchy *h)
     }
 }
 
+/* What is worked with, as long as nothing but this asks for it. */
+struct spreads {
+    /* [element * bands + band]: smallest and largest radiosity of the uncovered leaves below */
+    double *least, *most;
+    double *deviation; /* the same: half the mean of |B - its mean| below */
+};
+
 /* Largest less smallest B below element i, largest band. Fills its part of least[] and most[],
  * which its children's hold already. */
-static double measure_spread(struct oracle_inputs *in, const struct light_operator *op,
+static double measure_spread(const struct spreads *in, const struct light_operator *op,
                              const double *radiosity, uint32_t i)
 {
     const struct element *e = &op->hierarchy->elements[i];
@@ -71,7 +79,7 @@ static double measure_spread(struct oracle_inputs *in, const struct light_operat
 
 /* Half the area mean of |B - its mean| below element i, largest band, from above: of a part it is
  * at most the part's own and what the part's mean is off. Fills its part of deviation[]. */
-static double measure_deviation(struct oracle_inputs *in, const struct light_operator *op,
+static double measure_deviation(const struct spreads *in, const struct light_operator *op,
                                 const double *radiosity, uint32_t i)
 {
     const struct element *e = &op->hierarchy->elements[i];
@@ -103,6 +111,7 @@ static int follow(double *seen, double now, double within, double unknown)
 
 struct showing {
     struct oracle_inputs *in;
+    struct spreads below;
     const struct light_operator *op;
     const double *radiosity;
     struct element *elements;
@@ -117,17 +126,26 @@ static void show(const void *showing, uint32_t i)
     for (uint32_t k = 0; k < b; k++)
         brightest = fmax(brightest, s->radiosity[(size_t)i * b + k]);
     double unknown = s->in->known * brightest,
-           spread = measure_spread(s->in, s->op, s->radiosity, i),
-           deviation = measure_deviation(s->in, s->op, s->radiosity, i);
+           spread = measure_spread(&s->below, s->op, s->radiosity, i),
+           deviation = measure_deviation(&s->below, s->op, s->radiosity, i);
     int grew = follow(&e->radiosity, brightest, HYSTERESIS, 0);
     grew |= follow(&e->spread, spread, HYSTERESIS, unknown);
     grew |= follow(&e->deviation, deviation, DEVIATION_HYSTERESIS, unknown);
     s->in->changed[i] = (unsigned char)grew;
 }
 
-void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
-                          const double *radiosity, struct hierarchy *h)
+int oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
+                         const double *radiosity, struct hierarchy *h)
 {
-    const struct showing s = {in, op, radiosity, h->elements};
+    const size_t values = (size_t)h->count * op->problem->bands;
+    double *room = malloc(3 * values * sizeof *room);
+    if (ranks_any(op->problem->options.ranks, !room)) {
+        free(room);
+        return -1;
+    }
+    const struct showing s = {
+        in, {room, room + values, room + 2 * values}, op, radiosity, h->elements};
     children_first(h, op->problem->options.threads, show, &s);
+    free(room);
+    return 0;
 }

@@ -6,18 +6,16 @@
 #include "engine/operator.h"
 
 struct oracle_inputs {
-    /* [element * bands + band]: smallest and largest radiosity of the uncovered leaves below */
-    double *least, *most;
-    double *deviation; /* the same: half the mean of |B - its mean| below */
     /* [element]: what the oracles see of it has grown since the links were discussed */
     unsigned char *changed;
     double known; /* relative: what iteration may have left of the radiosities they see */
 };
 
 /* Radiosity and spread of every element, from B [element * bands + band]. changed[e] becomes 1
- * where an oracle sees one of them grow, else 0. */
-void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
-                          const double *radiosity, struct hierarchy *h);
+ * where an oracle sees one of them grow, else 0. Returns 0, or -1 on all ranks when any is out of
+ * memory. */
+int oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
+                         const double *radiosity, struct hierarchy *h);
 
 /* Before the first solve the oracles see what the light is likely to be: E + rho H with the
  * scene's mean irradiance. */

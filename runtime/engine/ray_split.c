@@ -62,10 +62,10 @@ static void add_powers(const void *places, size_t from, size_t to)
 }
 
 /* The same where ranks have counted apart. */
-static int add_counts(const struct places *p, struct ranks *ranks, int own)
+static int add_counts(const struct places *p, struct ranks *ranks)
 {
     const uint32_t bands = p->tally->bands;
-    int64_t *count = place_counts(ranks, p->tally, p->element, p->count, own);
+    int64_t *count = place_counts(ranks, p->tally, p->element, p->count);
     if (!count)
         return -1;
     for (size_t i = 0; i < (size_t)p->count * bands; i++)
@@ -88,7 +88,7 @@ static int places_open(struct places *p, const struct light_operator *op, const 
     if (ranks_any(op->shares.ranks, !p->element || !p->power))
         return -1;
     if (tally->parted_leaves)
-        return add_counts(p, op->shares.ranks, op->shares.common > 0);
+        return add_counts(p, op->shares.ranks);
     thread_pool_run(threads, p->count, 64, add_powers, p);
     return 0;
 }

@@ -6,7 +6,7 @@
 #include "engine/problem.h"
 #include "particles/particles.h"
 
-/* W, all bands; *variance: of that, by how replicates differ. */
+/* W, all bands, on all ranks; *variance: of that, by how replicates differ. */
 static inline double reflected_light(const struct problem *p, const struct tally *tally,
                                      double *variance)
 {
@@ -14,11 +14,14 @@ static inline double reflected_light(const struct problem *p, const struct tally
     for (int r = 0; r < REPLICATES; r++) {
         power[r] = 0;
         for (uint32_t f = 0; f < tally->faces; f++)
-            for (uint32_t k = 0; k < tally->bands; k++)
+            for (uint32_t k = 0; k < tally->bands && tally_holds(tally, f); k++)
                 power[r] +=
                     p->reflectance[(size_t)f * tally->bands + k] * tally_face(tally, r, f, k);
-        mean += power[r] / REPLICATES;
     }
+    if (tally->quarters)
+        ranks_add(p->options.ranks, RANKS_PARTICLES, power, REPLICATES);
+    for (int r = 0; r < REPLICATES; r++)
+        mean += power[r] / REPLICATES;
     for (int r = 0; r < REPLICATES; r++)
         square += (power[r] - mean) * (power[r] - mean);
     *variance = square / (REPLICATES * (REPLICATES - 1));

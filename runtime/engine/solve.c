@@ -48,8 +48,7 @@ int solve_make_room(struct solve *s)
     struct state *state = &s->state;
     struct light_operator *op = &s->operator;
     uint32_t count = s->hierarchy.count, b = s->problem.bands;
-    double **const by_band[] = {&state->radiosity, &state->irradiance, &s->inputs.least,
-                                &s->inputs.most, &s->inputs.deviation};
+    double **const by_band[] = {&state->radiosity, &state->irradiance};
     double **const single[] = {&op->uncovered, &op->row_scale, &op->row_above, &op->row_share,
                                &op->row};
     for (size_t i = 0; i < sizeof by_band / sizeof *by_band; i++)
@@ -211,7 +210,8 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     }
     struct transport x = light(s, 0);
     transport_average(&s->operator, & x);
-    oracle_inputs_update(&s->inputs, &s->operator, s->state.radiosity, h);
+    if (oracle_inputs_update(&s->inputs, &s->operator, s->state.radiosity, h) < 0)
+        goto fail;
     p->rays = rays_open(h, brightest, p->whitest, options->threads, cause);
     if (ranks_any(options->ranks, !p->rays))
         goto fail;
@@ -418,7 +418,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
                       : rough                          ? SOLVE_TOLERANCE
                                                        : x.held;
     transport_average(op, &x);
-    oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy);
+    if (oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy) < 0)
+        return -1;
     if (s->bracket.capacity > 0 && bracket_update(&s->bracket, op, &s->hierarchy, &s->inputs) < 0)
         return -1;
     if (s->importance.capacity == 0)
@@ -623,8 +624,7 @@ void solve_close(struct solve *s)
     bracket_free(&s->bracket);
     ranking_free(&s->ranking);
     linear_solution_free(&s->linear);
-    double *const lists[] = {s->state.radiosity,    s->state.irradiance,   s->inputs.least,
-                             s->inputs.most,        s->inputs.deviation,   s->operator.uncovered,
+    double *const lists[] = {s->state.radiosity,    s->state.irradiance,   s->operator.uncovered,
                              s->operator.row_scale, s->operator.row_above, s->operator.row_share,
                              s->operator.row,       s->problem.exitance,   s->problem.reflectance,
                              s->problem.whitest};

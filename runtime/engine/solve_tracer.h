@@ -16,7 +16,9 @@ static inline struct tracer solve_tracer(const struct solve *s)
                            .reflectance = s->problem.reflectance,
                            .bands = s->problem.bands,
                            .threads = s->problem.options.threads,
-                           .ranks = s->problem.options.ranks};
+                           .ranks = s->problem.options.ranks,
+                           .owner = s->operator.shares.owner,
+                           .stretch = s->operator.shares.stretch };
 }
 
 #endif

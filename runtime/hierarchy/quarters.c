@@ -75,3 +75,19 @@ int quarters_split(struct quarters *q, struct hierarchy *h, uint32_t leaf, doubl
     const struct element e = h->elements[leaf];
     return split(q, h, &e, leaf, mine ? leaf : 0, parts);
 }
+
+/* Numbers rise as a rank makes its own. */
+uint32_t quarters_here(const struct quarters *q, const struct hierarchy *h, uint32_t number)
+{
+    uint32_t low = 0, high = h->count - q->common;
+    if (number < q->common)
+        return number;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (q->number[middle] > number)
+            high = middle;
+        else
+            low = middle;
+    }
+    return q->common + low;
+}

@@ -37,4 +37,7 @@ static inline uint32_t quarters_number(const struct quarters *q, uint32_t elemen
     return q && q->common && element >= q->common ? q->number[element - q->common] : element;
 }
 
+/* The element here that has the number; there is one. */
+uint32_t quarters_here(const struct quarters *q, const struct hierarchy *h, uint32_t number);
+
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "kernel/constants.h"
 #include "kernel/leaf_at.h"
+#include "particles/landing_mail.h"
 #include "particles/particles.h"
 #include "particles/running_sums.h"
 #include "particles/sobol_sequence.h"
@@ -16,66 +17,8 @@ enum {
     LANDINGS = 64 /* that are counted at once */
 };
 
-/* Counts of one particle: room for 2^39 of them on a face; or for 2^31, and parts of a millionth.
- */
-#define ONE_WHOLE 0x1p24
+/* Counts of one particle that may be split: room for 2^31 of them, and for parts of a millionth. */
 #define ONE_SPLIT 0x1p32
-
-int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int leaves)
-{
-    *tally = (struct tally){.faces = t->hierarchy->face_count,
-                            .elements = t->hierarchy->count,
-                            .bands = t->bands,
-                            .stream = stream,
-                            .one = ONE_WHOLE,
-                            .power = t->lights.power};
-    const struct quarters *q = t->quarters && t->quarters->common ? t->quarters : NULL;
-    size_t bands = t->bands;
-    tally->quarters = q;
-    if (leaves && q)
-        tally->elements = q->count;
-    tally->face = calloc((size_t)REPLICATES * tally->faces * bands, sizeof *tally->face);
-    tally->back = calloc(tally->faces, sizeof *tally->back);
-    tally->square = calloc(bands, sizeof *tally->square);
-    if (leaves) {
-        tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
-        tally->made = q ? NULL : malloc(tally->elements * sizeof *tally->made);
-        tally->first = q ? q->child : tally->made;
-    }
-    if (!tally->face || !tally->back || !tally->square
-        || (leaves && (!tally->element || !tally->first))) {
-        tally_close(tally);
-        return -1;
-    }
-    for (uint32_t i = 0; leaves && !q && i < tally->elements; i++) {
-        const struct element *e = &t->hierarchy->elements[i];
-        tally->made[i] = e->children ? e->child : 0;
-    }
-    return 0;
-}
-
-void tally_close(struct tally *tally)
-{
-    free(tally->face);
-    free(tally->back);
-    free(tally->element);
-    free(tally->made);
-    free(tally->square);
-    free(tally->until);
-    free(tally->carried);
-    *tally = (struct tally){0};
-}
-
-double tally_below(const struct tally *tally, uint32_t number, uint32_t band)
-{
-    const uint32_t child = tally->first[number];
-    double sum = 0;
-    if (!child)
-        return tally_numbered(tally, number, band);
-    for (uint32_t c = 4; c-- > 0;)
-        sum += tally_below(tally, child + c, band);
-    return sum;
-}
 
 /* From an emitter one carries what the window wants of those that leave its place, but no less than
  * the emitter's share of all power: what shines into the dark is not asked for more than others. */
@@ -114,6 +57,7 @@ struct batch {
     uint64_t rays;
     int64_t first[3], second[3];      /* sums of w and w^2, as counts */
     int64_t lost[3];                  /* of w that is not met again */
+    struct mail *mail;                /* what has landed on others' faces; NULL: it stays here */
     struct landing landing[LANDINGS]; /* [landed]: not counted yet */
 };
 
@@ -140,6 +84,17 @@ static void find_leaves(const struct tally *tally, const struct tracer *t,
         leaf[i] = walk[i].at;
 }
 
+/* Places of all: `additions` wait for memory one after the other. */
+static void prefetch(const struct tally *tally, const struct batch *batch, const uint32_t *leaf)
+{
+    for (int i = 0; i < batch->landed; i++) {
+        const size_t face = (size_t)batch->replicate * tally->faces + batch->landing[i].face;
+        __builtin_prefetch((const void *)&tally->face[face * tally->bands], 1);
+        if (tally->element)
+            __builtin_prefetch((const void *)&tally->element[(size_t)leaf[i] * tally->bands], 1);
+    }
+}
+
 /* Count what has landed. Returns the leaf of the last, or 0 where leaves are not counted on. */
 static uint32_t count_landings(struct tally *tally, const struct tracer *t, struct batch *batch)
 {
@@ -147,23 +102,20 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
     uint32_t leaf[LANDINGS] = {0};
     if (tally->element)
         find_leaves(tally, t, batch->landing, count, leaf);
-    for (int i = 0; i < count; i++) { /* additions wait for memory one after the other */
-        const size_t face = (size_t)batch->replicate * tally->faces + batch->landing[i].face;
-        __builtin_prefetch((const void *)&tally->face[face * tally->bands], 1);
-        if (tally->element)
-            __builtin_prefetch((const void *)&tally->element[(size_t)leaf[i] * tally->bands], 1);
-    }
+    if (!batch->mail)
+        prefetch(tally, batch, leaf);
     for (int i = 0; i < count; i++) {
         const struct landing *l = &batch->landing[i];
-        size_t face = (size_t)batch->replicate * tally->faces + l->face;
+        int64_t w[3] = {0, 0, 0};
         for (uint32_t k = 0; k < tally->bands; k++) {
-            int64_t w = (int64_t)(l->share[k] * tally->one + 0.5);
-            batch->first[k] += w;
+            w[k] = (int64_t)(l->share[k] * tally->one + 0.5);
+            batch->first[k] += w[k];
             batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
-            tally->face[face * tally->bands + k] += w;
-            if (tally->element)
-                tally->element[(size_t)leaf[i] * tally->bands + k] += w;
         }
+        if (batch->mail)
+            mail_landing(batch->mail, tally, batch->replicate, l->face, leaf[i], w);
+        else
+            tally_count(tally, batch->replicate, l->face, leaf[i], w);
     }
     batch->landed = 0;
     return count > 0 ? leaf[count - 1] : 0;
@@ -296,22 +248,25 @@ struct sums {
 };
 
 /* Particles from .. to - 1 of every replicate, in batches, each of one replicate; of these every
- * `ranks`th from number `rank` on. */
+ * `ranks`th from number `rank` on, without the first `done` of them. */
 struct batches {
     struct tally *tally;
     const struct tracer *t;
     const struct sobol_sequence *sobol;
-    uint64_t from, to, rank, ranks;
+    uint64_t from, to, rank, ranks, done;
     struct watched_loop *loop;
     struct sums *sums;
+    struct mail *mail; /* [batch]; NULL: all counts stay here */
 };
 
 static void trace_batches(const void *batches, size_t begin, size_t end)
 {
     const struct batches *all = batches;
     for (uint64_t i = begin; i < end; i++) {
-        const uint64_t b = i * all->ranks + all->rank;
-        struct batch batch = {.sobol = all->sobol, .replicate = (int)(b % REPLICATES)};
+        const uint64_t b = (all->done + i) * all->ranks + all->rank;
+        struct batch batch = {.sobol = all->sobol,
+                              .replicate = (int)(b % REPLICATES),
+                              .mail = all->mail ? &all->mail[i] : NULL};
         uint64_t low = all->from + b / REPLICATES * BATCH,
                  high = low + BATCH < all->to ? low + BATCH : all->to,
                  set = all->tally->stream * REPLICATES + (uint64_t)batch.replicate;
@@ -335,10 +290,11 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
 /* Before all ranks trace their parts: what has been added stays with the first; */
 static void part_counts(struct tally *tally, struct ranks *ranks)
 {
-    const int others = ranks_number(ranks) > 0, several = ranks_count(ranks) > 1;
+    const int several = ranks_count(ranks) > 1 && !tally->quarters,
+              others = several && ranks_number(ranks) > 0;
     if (others && !tally->parted_faces) {
         memset((void *)(uintptr_t)tally->face, 0,
-               (size_t)REPLICATES * tally->faces * tally->bands * sizeof *tally->face);
+               (size_t)REPLICATES * tally->held * tally->bands * sizeof *tally->face);
         memset((void *)(uintptr_t)tally->lost, 0, sizeof tally->lost);
         memset((void *)(uintptr_t)tally->back, 0, tally->faces * sizeof *tally->back);
     }
@@ -349,7 +305,7 @@ static void part_counts(struct tally *tally, struct ranks *ranks)
     tally->parted_leaves = several && tally->element;
 }
 
-/* after it all have the sums of all, */
+/* after it all have the sums of all. */
 static void add_sums(struct ranks *ranks, struct sums *sums)
 {
     uint64_t few[7] = {sums->rays};
@@ -365,34 +321,21 @@ static void add_sums(struct ranks *ranks, struct sums *sums)
     }
 }
 
-/* and once they are asked for, the counts. They are integers: their sum has no order. */
-_Static_assert(sizeof(_Atomic int64_t) == sizeof(uint64_t), "counts are sent as they stand");
-
-void tally_add_faces(struct tally *tally, struct ranks *ranks)
+/* Batches of which landings are told before others are traced, so that few wait. */
+static int trace_and_tell(struct batches *all, uint64_t mine, uint64_t rounds)
 {
-    if (!tally->parted_faces)
-        return;
-    tally->parted_faces = 0;
-    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->face,
-                     (size_t)REPLICATES * tally->faces * tally->bands);
-    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->lost,
-                     sizeof tally->lost / sizeof **tally->lost);
-    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->back, tally->faces);
-}
-
-void tally_add_leaves(struct tally *tally, struct ranks *ranks)
-{
-    if (!tally->parted_leaves)
-        return;
-    tally->parted_leaves = 0;
-    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->element,
-                     (size_t)tally->elements * tally->bands);
-}
-
-void tally_add(struct tally *tally, struct ranks *ranks)
-{
-    tally_add_faces(tally, ranks);
-    tally_add_leaves(tally, ranks);
+    struct mail mail[MAIL_BATCHES] = {{0}};
+    int failed = 0;
+    all->mail = mail;
+    for (uint64_t i = 0; i < rounds; i++) { /* as many on all ranks */
+        const uint64_t left = mine > all->done ? mine - all->done : 0;
+        thread_pool_run(all->t->threads, left < MAIL_BATCHES ? left : MAIL_BATCHES, 1,
+                        trace_batches, all);
+        failed |= mail_send(mail, MAIL_BATCHES, all->tally, all->t->ranks) < 0;
+        all->done += MAIL_BATCHES;
+    }
+    mail_close(mail, MAIL_BATCHES);
+    return failed ? -1 : 0;
 }
 
 int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t particles,
@@ -409,14 +352,19 @@ int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t parti
                    mine = (count + ranks - 1 - rank) / ranks;
     struct watched_loop loop = {.watch = watch, .all = mine};
     struct sums sums = {0};
-    const struct batches all = {tally, t, &sobol, from, to, rank, ranks, &loop, &sums};
+    struct batches all = {tally, t, &sobol, from, to, rank, ranks, 0, &loop, &sums, NULL};
+    int failed = 0;
     part_counts(tally, t->ranks);
-    thread_pool_run(t->threads, mine, 1, trace_batches, &all);
+    if (tally->quarters)
+        failed =
+            trace_and_tell(&all, mine, (count + ranks * MAIL_BATCHES - 1) / (ranks * MAIL_BATCHES));
+    else
+        thread_pool_run(t->threads, mine, 1, trace_batches, &all);
     add_sums(t->ranks, &sums);
     tally->rays += sums.rays;
     for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
         tally->square[k] = sums.first[k] > 0 ? (double)sums.second[k] / (double)sums.first[k] : 0;
-    return loop.stopped ? -1 : 0;
+    return failed || loop.stopped ? -1 : 0;
 }
 
 int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,

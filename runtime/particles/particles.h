@@ -20,6 +20,10 @@
  * as often as others, and the window need only be about right. [Booth and Hendricks 1984, weight
  * windows; Cooper and Larsen 2001, windows as the light itself]
  *
+ * Ranks. Where each of several ranks has the quarters of its own faces, it has their counts, too:
+ * what lands on others' faces is told to them (landing_mail.h). Else all count everywhere and add
+ * up.
+ *
  * Invariant: power is added in fixed point, so neither threads nor ranks nor their order show.
  * SPDX-License-Identifier: MIT */
 #ifndef PARTICLES_H
@@ -32,23 +36,30 @@ enum { REPLICATES = 16 };
 
 /* What has been counted. */
 struct tally {
-    uint32_t faces, elements, bands; /* elements: as they are numbered (quarters.h) */
-    const struct quarters *quarters; /* borrowed; NULL: the hierarchy has all */
+    uint32_t faces, elements, bands; /* elements: of the hierarchy here */
+    /* borrowed; NULL: this rank has the counts of all faces. Else it has those of its own, `held`
+     * of them, order[first_held] .. in the tree's order; faces' owners are as they were when it was
+     * opened */
+    const struct quarters *quarters;
+    const struct hierarchy *hierarchy;
+    const uint16_t *owner; /* [face]; good until faces are dealt out anew */
+    uint32_t held, first_held;
     uint64_t stream;       /* which random numbers: tallies of two streams are independent */
     uint64_t particles;    /* of each replicate, so far */
     uint64_t rays;         /* cast for them */
     double power;          /* of all emitters (W), all bands */
     double one;            /* a count of so much is one particle at its full power */
-    _Atomic int64_t *face; /* [REPLICATES][faces * bands + band] */
+    _Atomic int64_t *face; /* [REPLICATES][held * bands + band]: tally_place */
     _Atomic int64_t
         *element; /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
-    _Atomic int64_t lost[REPLICATES][3]; /* [band]: what left the scene or met a black back */
-    _Atomic int64_t *back;               /* [faces]: of that, what met its back, all bands */
+    _Atomic int64_t lost[REPLICATES][3]; /* [band]: what left the scene or met a black back; of
+                                          * what this rank has traced, where quarters is not NULL */
+    _Atomic int64_t *back; /* [faces]: of that, what met its back, all bands; likewise */
     /* by replicate, and of all: counts are so much more, as a share (power_balance.h) */
     double correction[REPLICATES + 1][3];
     uint32_t *made; /* owned; what `first` is of where the hierarchy has all */
     const uint32_t
-        *first;     /* [element]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
+        *first;     /* [number]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
     double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
@@ -62,6 +73,8 @@ struct tally {
  * or -1 when out of memory. */
 int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int leaves);
 void tally_close(struct tally *tally);
+/* Keep counts of faces alone. */
+void tally_forget_leaves(struct tally *tally);
 
 /* Before any is traced: split particles. window[leaf]: what one should carry that leaves there, a
  * share of the power of all over their number, > 0; borrowed. Emitters are chosen by it, too. The
@@ -90,21 +103,29 @@ static inline double tally_unit(const struct tally *tally)
     return tally->particles > 0 ? tally->power / ((double)tally->particles * tally->one) : 0;
 }
 
-/* Power that the face receives in a band (W), by one replicate. */
+/* Has this rank the counts of a face? */
+static inline int tally_holds(const struct tally *tally, uint32_t face)
+{
+    if (!tally->quarters)
+        return 1;
+    const struct hierarchy *h = tally->hierarchy;
+    return h->range[h->face_element[face]].from - tally->first_held < tally->held;
+}
+
+/* Where these are in a replicate's. */
+static inline size_t tally_place(const struct tally *tally, uint32_t face)
+{
+    const struct hierarchy *h = tally->hierarchy;
+    return tally->quarters ? h->range[h->face_element[face]].from - tally->first_held : face;
+}
+
+/* Power that a face receives in a band (W), by one replicate. */
 static inline double tally_face(const struct tally *tally, int replicate, uint32_t face,
                                 uint32_t band)
 {
-    size_t at = (size_t)replicate * tally->faces + face;
+    size_t at = (size_t)replicate * tally->held + tally_place(tally, face);
     return tally_unit(tally) * (double)tally->face[at * tally->bands + band]
            * (1 + tally->correction[replicate][band]);
-}
-
-/* Of a leaf by its number. */
-static inline double tally_numbered(const struct tally *tally, uint32_t number, uint32_t band)
-{
-    return tally_unit(tally) / REPLICATES
-           * (double)tally->element[(size_t)number * tally->bands + band]
-           * (1 + tally->correction[REPLICATES][band]);
 }
 
 /* W that one count on leaves stands for. */
@@ -113,16 +134,16 @@ static inline double tally_leaf_unit(const struct tally *tally, uint32_t band)
     return tally_unit(tally) / REPLICATES * (1 + tally->correction[REPLICATES][band]);
 }
 
-/* Of all leaves below what is split elsewhere, last to first, as it would be summed here (W). */
-double tally_below(const struct tally *tally, uint32_t number, uint32_t band);
-
-/* Power that the leaf receives in a band (W), mean of all replicates. */
+/* Power that a leaf receives in a band (W), mean of all replicates. */
 static inline double tally_leaf(const struct tally *tally, uint32_t element, uint32_t band)
 {
-    if (tally->quarters && tally->quarters->common)
-        return tally_below(tally, quarters_number(tally->quarters, element), band);
-    return tally_numbered(tally, element, band);
+    return tally_unit(tally) / REPLICATES
+           * (double)tally->element[(size_t)element * tally->bands + band]
+           * (1 + tally->correction[REPLICATES][band]);
 }
+
+/* All counts as one number: a sum over all ranks, so that no order shows. */
+uint64_t tally_fingerprint(const struct tally *tally, struct ranks *ranks);
 
 /* W that one particle of all replicates stands for. */
 static inline double tally_power_of_one(const struct tally *tally)

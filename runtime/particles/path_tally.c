@@ -31,15 +31,18 @@ static void count(struct path_tally *y, const struct tracer *t, const double *ir
     to->rays = y->paths.rays;
     const double unit = tally_unit(to);
     for (uint32_t f = 0; f < to->faces && unit > 0; f++) {
+        if (!tally_holds(to, f))
+            continue;
         const uint32_t element = t->hierarchy->face_element[f];
         const double area = t->hierarchy->elements[element].area,
                      n = (double)(face_paths_count(&y->paths, f, y->paths.paths) / REPLICATES);
         for (int r = 0; r < REPLICATES; r++)
             for (uint32_t k = 0; k < to->bands; k++) {
-                const size_t at = (size_t)f * to->bands + k;
+                const size_t at = (size_t)f * to->bands + k,
+                             place = (size_t)r * to->held + tally_place(to, f);
                 const double H = n > 0 ? y->paths.replicate[r][at] / n
                                        : irradiance[(size_t)element * to->bands + k];
-                to->face[(size_t)r * to->faces * to->bands + at] = llround(H * area / unit);
+                to->face[place * to->bands + k] = llround(H * area / unit);
             }
     }
 }

@@ -39,6 +39,8 @@ static void add_faces(const void *balancing, size_t from, size_t to)
             /* in sums of its own: a line of memory that two threads write is slow */
             double reflected = 0, ended = 0;
             for (uint32_t f = 0; f < tally->faces; f++) {
+                if (!tally_holds(tally, f))
+                    continue;
                 const double rho = x->t->reflectance[(size_t)f * tally->bands + k],
                              power = tally_face(tally, (int)r, f, k);
                 reflected += rho * power;
@@ -80,7 +82,8 @@ void power_balance(struct tally *tally, const struct tracer *t)
     for (uint32_t k = 0; k < tally->bands; k++) {
         struct balance b = balance[k];
         double reflected = 0, ended = 0, both = 0, square = 0;
-        if (tally->parted_faces) { /* sums of sums: nobody needs the counts themselves */
+        if (tally->parted_faces
+            || tally->quarters) { /* sums of sums: nobody needs the counts themselves */
             ranks_add(t->ranks, RANKS_PARTICLES, b.reflected, REPLICATES);
             ranks_add(t->ranks, RANKS_PARTICLES, b.ended, REPLICATES);
         }

@@ -30,7 +30,11 @@ struct tracer {
     const double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
     uint32_t bands;                       /* 1 or 3 */
     int threads;
-    struct ranks *ranks;          /* who trace together, each its part; NULL: one process */
+    struct ranks *ranks; /* who trace together, each its part; NULL: one process */
+    /* where there are quarters that others have: [face], the rank that counts there; [ranks + 1],
+     * where each one's begin in hierarchy->order */
+    const uint16_t *owner;
+    const size_t *stretch;
     struct lights lights;         /* owned, as the next */
     struct light_tree light_tree; /* the same emitters, for paths */
 };

@@ -66,7 +66,8 @@ START_TEST(test_deviation)
     for (uint32_t i = 0; i < s.hierarchy.count; i++)
         s.hierarchy.elements[i].deviation = 0; /* or they are within HYSTERESIS */
     s.inputs.known = 0;
-    oracle_inputs_update(&s.inputs, &s.operator, s.state.radiosity, &s.hierarchy);
+    ck_assert_int_eq(oracle_inputs_update(&s.inputs, &s.operator, s.state.radiosity, &s.hierarchy),
+                     0);
     for (uint32_t i = 0; i < s.hierarchy.count; i++)
         ck_assert_double_ge(s.operator.uncovered[i], 1); /* else the means are not those of areas */
     for (uint32_t i = 0; i < s.hierarchy.count; i++) {

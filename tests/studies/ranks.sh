@@ -66,16 +66,18 @@ number of ranks. \"Most\" is the rank that has most, over the mean. Bytes are th
 What follows.
 
 - **Links and discussions** are shared out. The first pass goes by numbers of faces, later ones by links.
-- **Memory falls** as far as it is quarters that particles are counted on: a rank has those of its own faces (264 bytes each, and the numbers
-  that go with them), and what their numbers are of all. What does not fall: elements that links know of, Embree's structure over all
-  faces, and, while particles are counted, 16 sums for each face. Embree keeps pointers in its structure, so processes cannot share it:
-  give a machine one rank, with threads. A mesh of the solution, a picture, paths of dim polygons and errors of surfaces need all
-  quarters: then all ranks get them. Of 1,001,222 faces, where a face has 8 elements and not 49, one process takes 5576 MB and each of
-  4 ranks 2556 to 2753, in a run apart from this table.
+- **Memory falls** as far as it is quarters that particles are counted on, and what is counted: a rank has quarters of its own faces
+  (264 bytes each, and the numbers that go with them), counts of its own faces and of these, and what it takes to mend them; of others'
+  quarters it has what their numbers are. What does not fall: elements that links know of, and Embree's structure over all
+  faces. Embree keeps pointers in its structure, so processes cannot share it: give a machine one rank, with threads. A mesh of the solution, a picture, paths of dim polygons and errors of surfaces need all
+  quarters: then all ranks get them. Of a gridroom of 150,196 faces, where a face has 9 elements and not 49, one process takes 1110 MB and
+  each of 4 ranks 420 to 429, in a run apart from this table.
 - **A sweep tells of nearly every face**, not of the surface between parts: groups are linked far and wide, and each link weighs the faces
   of a group by where they stand to it, so that a sum serves no other. What groups alone take is told once a sweep, in single precision.
   Its bytes grow with the faces, and with the ranks that each is told to.
-- **Particles** cost most: counts of faces are added up after each stretch of tracing that anybody looks at face by face.
+- **Particles** cost most: what lands on others' faces is told to them, 4 bytes and 4 a band for each landing. That grows with the
+  particles and not with the faces: of 150,196 faces a rank of 4 tells 245 MB, where sums of all counts took 633; of 14,936, which get
+  as many particles, it is 223, where sums took 102.
 
 ## More faces, more machines
 
@@ -92,7 +94,7 @@ END
         $at["faces"] != "-" && $at["ranks"] == 4 { own = 4 * (two - $at["elements_most"] / $at["faces"]); all = two - own / 2 }
         $at["faces"] != "-" && $at["ranks"] == 2 { two = $at["elements_most"] / $at["faces"]; sweep = $at["sweep_bytes"] / $at["sweeps"] / $at["faces"] * 2; particles = $at["particles"] / $at["faces"]; values = $at["values"] / $at["faces"] * 2 }
         END { for (f = 1e8; f <= 1e9; f *= 10) for (n = 64; n <= 1024; n *= 16) {
-            held = f * ((all + own / n) * (264 + 3 * 8 * 2) + (all + own) * (4 + 3 * 8) + 16 * 3 * 8) / 1e9
+            held = f * ((all + own / n) * (264 + 3 * 8 * 2) + (all + own) * 4 + (all + own / n) * 3 * 8 + 16 * 3 * 8 / n) / 1e9
             printf "| %.0e | %d | %.0f | %.1f | %.3f | %.1f | %s |\n", f, n, held, sweep * f * (n - 1) / n / 12.5e9, 16 * (n - 1) * 3e-6, (2 * particles + values) * f / 12.5e9, held + f * 295 / 1e9 < 256 ? "yes" : "no" } }' "$pages/ranks.csv"
     cat <<'END'
 
@@ -108,7 +110,7 @@ END
         $at["faces"] != "-" && $at["ranks"] == 1 { n = $at["faces"]; elements = $at["elements"] / n; links = $at["links"] / n }
         END { printf "| corners, material | %d | all | whoever casts rays at it |\n| Embree: held, while it is built | %.0f, %.0f | all | the same |\n", face, held, most
               printf "| %.1f elements of %d bytes, most of them quarters that particles are counted on | %.0f | quarters the owner of the face, others all | of links, who names them |\n", elements, element, elements * element
-              printf "| radiosity and irradiance of them, three bands | %.0f | the same | the same |\n| counts of particles, in 16 groups; of quarters 28 bytes each | %d | all | the owner |\n", elements * 48, 16 * 3 * 8
+              printf "| radiosity and irradiance of them, three bands | %.0f | the same | the same |\n| counts of particles, in 16 groups; of quarters 24 bytes each | %d | the owner | the owner |\n", elements * 48, 16 * 3 * 8
               printf "| %.1f links | %.0f | the owner | the owner |\n", links, links * link }' "$tmp/embree" "$pages/ranks.csv"
     echo
     echo "Embree, by its own account (\`embree_bytes\`: the monitor of its device), over the same rooms:"
@@ -117,26 +119,24 @@ END
 
 So the plan, in the order in which it pays:
 
-1. **Counts of particles by owner**: particles go by index, counts to the owner of the face in one exchange after each stretch of tracing (sums of
-   integers: the same bits), in place of a sum over all on every rank. Polygons of several faces then have sums to tell of.
-2. **Elements by stretch**, as quarters are by now: a rank splits and keeps the faces that it owns, and of others those elements that its links name. Their path
+1. **Elements by stretch**, as quarters are by now: a rank splits and keeps the faces that it owns, and of others those elements that its links name. Their path
    is their name (`element.id`), so they are made without asking.
-3. **Geometry** stays whole on each machine as long as corners and Embree fit:
+2. **Geometry** stays whole on each machine as long as corners and Embree fit:
 END
     awk '{ held = 112 + $4 / $2; most = 112 + $6 / $2 } END { printf "   %.0f bytes a face while it is built, %.0f after: 1e8 faces take %.0f GB, 1e9 %.0f GB.\n", most, held, most / 10, most }' "$tmp/embree"
     cat <<'END'
-4. **Beyond that, rays go to the geometry**: each machine has Embree over its stretch, and over the boxes of the others' parts of the tree. A ray that
+3. **Beyond that, rays go to the geometry**: each machine has Embree over its stretch, and over the boxes of the others' parts of the tree. A ray that
    meets such a box goes to its owner, many in one message, 24 bytes there and a bit back.
 END
     awk -F , 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } $at["faces"] != "-" && $at["ranks"] == 1 { rays = $at["rays"] / $at["faces"] }
-        END { printf "   %.0f rays a face of links: 1e9 faces on 1024 machines are %.0f GB a machine for each stretch that a ray passes, %.1f s at 12.5 GB/s; none is needed\n   before 3.\n", rays, rays * 24 * 1e9 / 1024 / 1e9, rays * 24 * 1e9 / 1024 / 12.5e9 }' "$pages/ranks.csv"
+        END { printf "   %.0f rays a face of links: 1e9 faces on 1024 machines are %.0f GB a machine for each stretch that a ray passes, %.1f s at 12.5 GB/s; none is needed\n   before 2.\n", rays, rays * 24 * 1e9 / 1024 / 1e9, rays * 24 * 1e9 / 1024 / 12.5e9 }' "$pages/ranks.csv"
     cat <<'END'
 
 What limits it is how much links name. In a room of 10036 faces in which all sees all, with fine links (`--no-correct`, 176 a face), each of 2 ranks
 names 4341 and 4298 elements of others and clusters, each of 8 ranks 4128 to 4603 (`named` in `--json`): .43 of the faces, and no fewer with more
 ranks. Shut rooms side by side would name less; that is not measured.
 
-It stops where one machine no longer holds the elements that links know of, and the counts of all faces and quarters. Before that, a sweep's bytes do not fall
+It stops where one machine no longer holds the elements that links know of. Before that, a sweep's bytes do not fall
 with more machines, since each is told of nearly all faces. Elements have one cure: stretches, as links and quarters are, with those of
 others only where a link needs them. Links, decisions and numbers do not stand in the way: refinement asks nobody, indices depend on
 what is split alone, and random numbers on a path's index. For sweeps, links of groups would have to take few numbers of a group,

@@ -1,0 +1,54 @@
+/* landing_mail.h - what particles leave on faces of other ranks is told to the ranks that count
+ * there.
+ *
+ * A particle goes through all faces, and lands on those of all ranks. Counts of all faces on every
+ * rank, and their sums, would be more than what lands as soon as there are many faces. So what
+ * lands on others' faces waits, a few batches of particles at a time, and then goes to the owners.
+ *
+ * Invariant: owners add integers, so the order of letters does not show.
+ * SPDX-License-Identifier: MIT */
+#ifndef LANDING_MAIL_H
+#define LANDING_MAIL_H
+
+#include "particles/particles.h"
+
+/* Batches that a rank traces before it tells what has landed. */
+enum { MAIL_BATCHES = 32 };
+
+/* To the owner of a face: what has landed there. */
+struct letter {
+    uint32_t number; /* of the leaf; where leaves are not counted on, of the face */
+    uint16_t replicate, owner;
+    uint32_t count[3]; /* by band: of a particle that is not split, at the most ONE_WHOLE */
+};
+
+/* Of one batch. */
+struct mail {
+    struct letter *letter;
+    size_t count, capacity;
+    int failed; /* out of memory: some are lost */
+};
+
+/* Count w on a face of this rank's, and on a leaf of it by its index here. */
+static inline void tally_count(struct tally *tally, int replicate, uint32_t face, uint32_t leaf,
+                               const int64_t w[3])
+{
+    const size_t at = (size_t)replicate * tally->held + tally_place(tally, face);
+    for (uint32_t k = 0; k < tally->bands; k++) {
+        tally->face[at * tally->bands + k] += w[k];
+        if (tally->element)
+            tally->element[(size_t)leaf * tally->bands + k] += w[k];
+    }
+}
+
+/* Count w where it is this rank's to count, else write to who does; number: of the leaf. */
+void mail_landing(struct mail *mail, struct tally *tally, int replicate, uint32_t face,
+                  uint32_t number, const int64_t w[3]);
+
+/* Send what has been written in so many batches, and count what comes. Returns 0, or -1 on all
+ * ranks when any is out of memory: then the tally is of no use. */
+int mail_send(struct mail *mail, int batches, struct tally *tally, struct ranks *ranks);
+
+void mail_close(struct mail *mail, int batches);
+
+#endif
