@@ -13,7 +13,7 @@
 #include "engine/operator.h"
 #include "hierarchy/levels.h"
 
-enum { MENDED_ELSEWHERE = UINT32_MAX };
+#define MENDED_ELSEWHERE UINT32_MAX
 
 struct mend_places {
     uint32_t *at;    /* [common]: the place of each element; NULL: all are here, at their index */

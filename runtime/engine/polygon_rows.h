@@ -10,7 +10,7 @@
 #include "engine/problem.h"
 #include "particles/particles.h"
 
-enum { NO_ROW = UINT32_MAX };
+#define NO_ROW UINT32_MAX
 
 struct polygon_rows {
     struct ranks *ranks; /* that have parts; NULL: all polygons are here */
