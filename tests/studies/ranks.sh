@@ -9,20 +9,21 @@ export LIMIT=${LIMIT:-3600}
 . "$(dirname "$0")/../support/mpi.sh"
 command -v mpirun >/dev/null || fail "mpirun is missing: apt-get install openmpi-bin"
 ! mpirun -n 2 "$radiosity" --version 2>&1 | grep -q 'built without MPI' || fail "$radiosity was built without MPI: make MPI=1"
-rows_open ranks scene,ranks,binary faces,elements,links,pairs,rays,sweeps,passes,links_most,pairs_most,ghosts_most,elements_most,memory_mb,splits,link_bytes,sweep_bytes,values,particles,fingerprint
+rows_open ranks scene,ranks,binary faces,elements,links,pairs,rays,sweeps,passes,links_most,links_mean,pairs_most,ghosts_most,elements_most,memory_mb,splits,link_bytes,sweep_bytes,values,particles,fingerprint
 
 solve() { # FACES RANKS
     [ -s "$tmp/$1.obj" ] || awk -v FACES="$1" -v MATERIALS="$tmp/$1.mtl" -f "$studies/room_of_boxes.awk" >"$tmp/$1.obj"
     timeout "$LIMIT" mpirun -n "$2" "$radiosity" solve "$tmp/$1.obj" --scale 16 -q --threads 1 --json "$tmp/json" >"$tmp/said" 2>&1 || return
     awk -f "$tables/json.awk" "$tmp/json" | awk -v ranks="$2" '
         function most(name) { return v["ranks.." name] + 0 }
-        /^ranks\./ { if ($2 + 0 > v[$1] + 0) v[$1] = $2; next }
+        /^ranks\./ { if ($2 + 0 > v[$1] + 0) v[$1] = $2; all_of[$1] += $2; next }
         { v[$1] = $2 }
         END {
             split("faces elements links pairs rays", all, " ")
             for (i = 1; i in all; i++) print all[i], v[all[i]]
             print "sweeps", v["iterations"]; print "passes", v["passes"]
-            print "links_most", (ranks > 1 ? most("links") : v["links"]); print "pairs_most", (ranks > 1 ? most("pairs") : v["pairs"])
+            print "links_most", (ranks > 1 ? most("links") : v["links"])
+            print "links_mean", (ranks > 1 ? all_of["ranks..links"] / ranks : v["links"]); print "pairs_most", (ranks > 1 ? most("pairs") : v["pairs"])
             print "ghosts_most", most("ghosts"); print "elements_most", (ranks > 1 ? most("elements") : v["elements"])
             print "memory_mb", (ranks > 1 ? most("memory_mb") : v["peak_memory_mb"])
             print "splits", most("bytes_sent.splits"); print "link_bytes", most("bytes_sent.links"); print "sweep_bytes", most("bytes_sent.sweeps")
@@ -49,7 +50,7 @@ done | paste -d ' ' - - - >"$tmp/embree"
 {
     page_head "Ranks" "What do several processes have, and what do they tell each other? One room, half of its faces in walls and half in boxes
 (\`tests/studies/room_of_boxes.awk\`), \`mpirun -n N radiosity solve --scale 16\`. The links of a scene are the same to the bit on any
-number of ranks. \"Most\" is the rank that has most, over the mean. Bytes are those that one rank, the busiest, has sent in the whole run;
+number of ranks. \"Most\" is the rank that has most, over the mean of ranks; links that a cluster of several receives are held by each of them. Bytes are those that one rank, the busiest, has sent in the whole run;
 \"a sweep\" is what it sends while sweeps go on, over their number."
     echo "| faces | ranks | links | most | discussions, most | MB held | elements of others, most | splits KB | links MB | a sweep KB | values MB | particles MB |"
     echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
@@ -59,7 +60,7 @@ number of ranks. \"Most\" is the rank that has most, over the mean. Bytes are th
           if (!($1 in first)) first[$1] = $at["fingerprint"]
           if (first[$1] != $at["fingerprint"]) { print "ranks.csv: " $1 ": other links on " n " ranks" >"/dev/stderr"; exit 1 }
           printf "| %d | %d | %d | %.2f | %.2f | %.0f | %d | %.1f | %.2f | %.0f | %.1f | %.0f |\n", $at["faces"], n, $at["links"],
-              $at["links_most"] * n / $at["links"], $at["pairs_most"] * n / $at["pairs"], $at["memory_mb"], $at["ghosts_most"],
+              $at["links_most"] / $at["links_mean"], $at["pairs_most"] * n / $at["pairs"], $at["memory_mb"], $at["ghosts_most"],
               $at["splits"] / 1e3, $at["link_bytes"] / 1e6, $at["sweep_bytes"] / $at["sweeps"] / 1e3, $at["values"] / 1e6, $at["particles"] / 1e6 }' "$pages/ranks.csv"
     cat <<'END'
 
