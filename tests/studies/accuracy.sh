@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# accuracy.sh - speed against accuracy: every oracle with its thresholds swept, the default mended by particles, asked for an
-# error, and particles alone and paths alone, each held against the cells that references.sh traces.
+# accuracy.sh - speed against accuracy: every oracle with its thresholds swept, the default as it comes, mended by particles,
+# asked for an error, and particles alone and paths alone, each held against the cells that references.sh traces.
 #
 # Seconds are of the processor, one thread, without reading and writing. An error is of faces or of cells of 1e-4 of the
 # area, as cell_error says. Coarse runs come first, of all methods; BUDGET seconds (100, of the
@@ -88,6 +88,7 @@ for name in ${SCENES_OF_STUDIES:-cornell room panels maze_8 td soda}; do
     folder=$(sh "$tables/references.sh" "$file")
     budget_begin
     left=0
+    run "$name" "$default chosen" "no options" solve "$file" "$folder" --no-errors
     for i in 0 2 4 6 1 3 5 7; do
         [ $i != 1 ] || before=()
         run "$name" particles "count $((2048 << (2 * i)))" by_chance "$file" "$folder" particles $((2048 << (2 * i)))

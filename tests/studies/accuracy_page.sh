@@ -36,10 +36,10 @@ chart() { # FILE X Y NOISE X-LABEL Y-LABEL
             [ $i -le $((count - columns)) ] && echo "unset xlabel" || echo "set xlabel '$5' offset 0,.6"
             [ $((i % columns)) = 1 ] || [ "$columns" = 1 ] && echo "set ylabel '$6' offset 1.5,0" || echo "unset ylabel"
             # of every other oracle a line of its own: blank lines between methods
-            awk -v own="$default" '$3 != own && $3 != own "_mended" && $3 != own "_asked" && $3 != "particles" && $3 != "paths" {
+            awk -v own="$default" '$3 != own && $3 != own "_mended" && $3 != own "_asked" && $3 != own "_chosen" && $3 != "particles" && $3 != "paths" {
                 if (last != "" && $3 != last) print ""
                 last = $3; print }' "$tmp/points.$name" >"$tmp/others.$name"
-            for method in "$default" "${default}_mended" "${default}_asked" particles paths; do
+            for method in "$default" "${default}_mended" "${default}_asked" "${default}_chosen" particles paths; do
                 awk -v method="$method" '$3 == method' "$tmp/points.$name" >"$tmp/one.$method.$name"
             done
             [ $i = 1 ] && echo "set key at screen .02,.995 left top maxrows 2 samplen 2" || echo "unset key"
@@ -50,7 +50,8 @@ chart() { # FILE X Y NOISE X-LABEL Y-LABEL
             echo " '$tmp/one.${default}_mended.$name' with linespoints pt 5 ps .5 lw 2 lc rgb '#d1453b' t 'mended', \\"
             echo " '$tmp/one.${default}_asked.$name' with linespoints pt 9 ps .6 lw 2 lc rgb '#a371f7' t '--accuracy', \\"
             echo " '$tmp/one.particles.$name' with linespoints pt 13 ps .6 lw 2 lc rgb '#2da44e' t 'particles alone', \\"
-            echo " '$tmp/one.paths.$name' with linespoints pt 11 ps .5 lw 2 lc rgb '#bf8700' t 'paths alone'"
+            echo " '$tmp/one.paths.$name' with linespoints pt 11 ps .5 lw 2 lc rgb '#bf8700' t 'paths alone', \\"
+            echo " '$tmp/one.${default}_chosen.$name' with points pt 3 ps 1.2 lw 2 lc rgb '#d1453b' t 'the default'"
         done
         echo "unset multiplot"
     } | draw "$1" "$width,$height"
@@ -67,7 +68,7 @@ front_table() { # SCENE X Y NOISE
     echo "| s | error | method | run |"
     echo "|---|---|---|---|"
     points "$1" "$2" "$3" "$4" | awk -f "$studies/front.awk" |
-        awk '{ gsub(/_asked/, " --accuracy", $3); gsub(/_mended/, " mended", $3); gsub(/_/, " ", $4); printf "| %.3g | %.2g %% | %s | %s |\n", $1, $2, $3, $4 }'
+        awk '{ gsub(/_asked/, " --accuracy", $3); gsub(/_mended/, " mended", $3); gsub(/_chosen/, ", the default", $3); gsub(/_/, " ", $4); printf "| %.3g | %.2g %% | %s | %s |\n", $1, $2, $3, $4 }'
 }
 
 # Links, error, error of greedy links, floor, in percent, of a scene and a basis, by growing links. Where greedy links leave
@@ -133,8 +134,8 @@ if [ -s "$floor" ]; then
 fi
 {
     page_head "Speed against accuracy" "What does an error cost, and would particles alone, or path tracing alone, be the better choice? Every built-in oracle
-has its thresholds swept (those that \`--accuracy\` scales), from 16 times as coarse as they are set to finer; \`$default\`, the default, also mended by
-particles (\`mended\`) and asked for an error by \`--accuracy\`. Particles and paths alone have a number of particles or
+has its thresholds swept (those that \`--accuracy\` scales), from 16 times as coarse as they are set to finer; \`$default\` also mended by
+particles (\`mended\`), asked for an error by \`--accuracy\`, and as it comes, with links or none as it finds out (*the default*). Particles and paths alone have a number of particles or
 of paths instead. Errors are against traced references, as shares of the reflected light: L1 of the means of faces, and
 of cells of 1e-4 of the area, which show shadows. Seconds are what a run took of one processor, user and system, without reading and writing: not the
 clock's, so that what else the machine does counts for little."
