@@ -41,7 +41,6 @@ held by nothing | solver/commands/tune_choice.c | s/penalty \* far : 0/0 * far :
 all search at once no more | solver/util/pattern_search.c | s/(s->together \&\& s->count > 1)/0/ | solver/check_tune
 left out and yet seen | solver/commands/tune_fit.c | s/if (s == f->left_out)/if (0)/ | solver/check_tune
 comments are read | solver/util/graph_defaults.c | s/if (\*at != '#')/if (1)/ | solver/check_tune
-paths of like numbers | runtime/oracle/counting.c | s/paths\[at\].count \&\& paths\[at\].number != number/0/ | runtime/check_statistics
 terms noted once | runtime/oracle/counting.c | s/        t->levels\[i \/ 8\] = now;/        (void)t;/ | runtime/check_statistics
 passes from the beginning | runtime/oracle/statistics.c | s/i > 0 ? numbers - p->number_count : NULL/NULL/ | runtime/check_statistics solver/check_draw
 times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)timed : 0/* (double)(calls > 0) : 0/ | runtime/check_statistics
@@ -112,7 +111,7 @@ links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/
 leaves of one size | runtime/engine/measured_error.c | s/rays \* SMALL <= landings/1e9 * SMALL <= landings/ | runtime/check_ambient
 ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflectance\[at\])/area/ | runtime/check_ambient
 backs of another face | runtime/particles/particles.c | s/tally->back\[ray_meets_back(met)\]/tally->back[0]/ | runtime/check_backs
-backs of a replicate | runtime/engine/black_backs.c | s| / REPLICATES / tally->power| / tally->power| | runtime/check_backs
+backs of a replicate | runtime/engine/black_backs.c | s,/ REPLICATES / tally->power,/ tally->power, | runtime/check_backs
 names of other faces | runtime/engine/dim_faces.c | s/faces\[d->face\[p->from\]\].input/j/ | solver/check_backs
 all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine\[1\] - mine\[0\])/tally->held = h->face_count/ | runtime/check_own_counts
 letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
