@@ -291,19 +291,10 @@ static int trace_paths(struct dim_faces *d, double budget)
 
 /* ---- those that are not sure by paths */
 
-static uint32_t count_unsure(const struct dim_faces *d)
-{
-    uint32_t unsure = 0;
-    for (uint32_t j = 0; j < d->count; j++)
-        unsure += !dim_is_sure(d, &d->polygon[j]);
-    return unsure;
-}
-
 /* Polygons are listed by number. */
-static void name_unsure(const struct dim_faces *d, struct dim_count *count)
+static void count_unsure(const struct dim_faces *d, struct dim_count *count)
 {
     const struct face *faces = d->tracer->hierarchy->faces;
-    count->unsure = 0;
     for (uint32_t j = 0; j < d->count; j++) {
         const struct dim_polygon *p = &d->polygon[j];
         if (dim_is_sure(d, p))
@@ -316,7 +307,10 @@ static void name_unsure(const struct dim_faces *d, struct dim_count *count)
 
 static int all_sure(const struct dim_faces *d)
 {
-    return count_unsure(d) == 0;
+    for (uint32_t j = 0; j < d->count; j++)
+        if (!dim_is_sure(d, &d->polygon[j]))
+            return 0;
+    return 1;
 }
 
 /* Which dim polygon the face is of, or NULL. */
@@ -470,7 +464,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);
     if (!failed)
-        name_unsure(&d, count);
+        count_unsure(&d, count);
     int changed = failed ? -1 : (int)d.count;
     close_all(&d);
     return changed;

@@ -51,6 +51,19 @@ static inline void cluster_walk_open(struct cluster_walk *w, const struct elemen
         w->child[i] = 0;
 }
 
+/* What cluster_facing has of an area, to the bit, without branches, so that several go together: d
+ * is the cosine of v with the axis; flat > 0: of a surface. */
+TOOL double cluster_cosine(double d, double cone, double flat, double slope)
+{
+    const double across = 1 - d * d, sine = 1 - cone * cone, turned = across * sine,
+                 root = sqrt(turned > 0 ? turned : 0), some = across > 0 ? root : 0;
+    double c = d * cone + (sine > 0 ? some : 0);
+    c = d < cone ? c : 1;
+    c = (flat > 0 ? d : c) + slope;
+    c = c < 1 ? c : 1;
+    return c < 0 ? 0 : c;
+}
+
 /* By fours: few clusters have more children. */
 TOOL void cluster_parts_body(const struct element *child, int children, const double v[3],
                              double slope, struct cluster_parts *p)
@@ -71,14 +84,8 @@ TOOL void cluster_parts_body(const struct element *child, int children, const do
             e += i + k + 1 < children;
         }
         for (int k = 0; k < 4; k++) {
-            const double d = row[k][0] * v0 + row[k][1] * v1 + row[k][2] * v2, across = 1 - d * d,
-                         sine = 1 - cone[k] * cone[k], turned = across * sine,
-                         root = sqrt(turned > 0 ? turned : 0), some = across > 0 ? root : 0;
-            double c = d * cone[k] + (sine > 0 ? some : 0);
-            c = d < cone[k] ? c : 1;
-            c = (flat[k] > 0 ? d : c) + slope;
-            c = c < 1 ? c : 1;
-            p->part[i + k] = row[k][3] * (c < 0 ? 0 : c);
+            const double d = row[k][0] * v0 + row[k][1] * v1 + row[k][2] * v2;
+            p->part[i + k] = row[k][3] * cluster_cosine(d, cone[k], flat[k], slope);
         }
     }
     for (int k = 0; k < children; k++)

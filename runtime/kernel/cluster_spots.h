@@ -67,14 +67,8 @@ TOOL struct cluster_spot *cluster_spot_new(struct cluster_spots *spots, const st
     p->to[CLUSTER_FEW] = all;
     p->next[CLUSTER_FEW] = &spots->ends;
     for (int k = 0; k < CLUSTER_FEW; k++) {
-        const double d = row[0][k] * v0 + row[1][k] * v1 + row[2][k] * v2, across = 1 - d * d,
-                     sine = 1 - cone[k] * cone[k], turned = across * sine,
-                     root = sqrt(turned > 0 ? turned : 0), some = across > 0 ? root : 0;
-        double cosine = d * cone[k] + (sine > 0 ? some : 0);
-        cosine = d < cone[k] ? cosine : 1;
-        cosine = (flat[k] > 0 ? d : cosine) + slope;
-        cosine = cosine < 1 ? cosine : 1;
-        const double part = row[3][k] * (cosine < 0 ? 0 : cosine);
+        const double d = row[0][k] * v0 + row[1][k] * v1 + row[2][k] * v2,
+                     part = row[3][k] * cluster_cosine(d, cone[k], flat[k], slope);
         p->part[k] = place[k] < children ? part : 0;
     }
     for (int k = 0; k < CLUSTER_FEW; k++)

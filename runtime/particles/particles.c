@@ -84,7 +84,7 @@ static void find_leaves(const struct tally *tally, const struct tracer *t,
         leaf[i] = walk[i].at;
 }
 
-/* Places of all: `additions` wait for memory one after the other. */
+/* Additions would wait for memory one after the other. */
 static void prefetch(const struct tally *tally, const struct batch *batch, const uint32_t *leaf)
 {
     for (int i = 0; i < batch->landed; i++) {

@@ -65,6 +65,25 @@ static RadOracle open_oracle(RadDevice device)
     return radNewOracle(device, radGetDefaultOracle(), RAD_RELEASE_FLAT);
 }
 
+struct asked {
+    RadDevice device;
+    RadScene scene;
+    RadOracle oracle;
+};
+
+static struct asked ask(int boxes)
+{
+    RadDevice device = radNewDevice(NULL);
+    return (struct asked){device, open_scene(device, boxes), open_oracle(device)};
+}
+
+static void release(const struct asked *a)
+{
+    radReleaseOracle(a->oracle);
+    radReleaseScene(a->scene);
+    radReleaseDevice(a->device);
+}
+
 static const struct RadSolveOptions linear = {.basis = RAD_BASIS_LINEAR};
 
 static double radiosity_of(RadSolution solution, uint32_t polygons, double *all)
@@ -166,91 +185,79 @@ static void expect_by_hand(RadDevice device, RadScene scene, RadSolution chosen,
 
 START_TEST(test_links_pay)
 {
-    RadDevice device = radNewDevice(NULL);
-    RadScene scene = open_scene(device, 0);
-    RadOracle oracle = open_oracle(device);
+    const struct asked a = ask(0);
     struct told told = {0};
     const struct RadChoiceOptions wishes = {.begin = begin, .user = &told};
     struct RadChoice choice;
     for (int i = 0; i < 2; i++) { /* the second finds thresholds that the first has scaled */
-        RadSolution solution = radSolveScene(scene, oracle, &linear, &wishes, &choice);
-        ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(device));
+        RadSolution solution = radSolveScene(a.scene, a.oracle, &linear, &wishes, &choice);
+        ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(a.device));
         ck_assert_int_eq(choice.no_links, 0);
         ck_assert_double_eq(told.first, 16);
         ck_assert_uint_gt(choice.rays, 0);
-        expect_by_hand(device, scene, solution, &choice);
+        expect_by_hand(a.device, a.scene, solution, &choice);
         radReleaseSolution(solution);
     }
-    radReleaseOracle(oracle);
-    radReleaseScene(scene);
-    radReleaseDevice(device);
+    release(&a);
 }
 END_TEST
 
 START_TEST(test_links_do_not_pay)
 {
-    RadDevice device = radNewDevice(NULL);
-    RadScene scene = open_scene(device, 1);
-    RadOracle oracle = open_oracle(device);
-    const double energy = radGetOracleParameter(oracle, "energy");
+    const struct asked a = ask(1);
+    const double energy = radGetOracleParameter(a.oracle, "energy");
     struct told told = {0};
     struct RadChoiceOptions wishes = {.begin = begin, .user = &told};
     struct RadChoice choice;
     struct RadReport report;
-    RadSolution solution = radSolveScene(scene, oracle, &linear, &wishes, &choice);
-    ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(device));
+    RadSolution solution = radSolveScene(a.scene, a.oracle, &linear, &wishes, &choice);
+    ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(a.device));
     /* The limit on pairs that the try at links met is no error. */
-    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_NONE);
+    ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_NONE);
     ck_assert_int_eq(choice.no_links, 1);
     ck_assert_int_eq(told.none, 1);
     ck_assert_int_ge(told.times, 2);
-    ck_assert_double_eq(radGetOracleParameter(oracle, "energy"), energy);
+    ck_assert_double_eq(radGetOracleParameter(a.oracle, "energy"), energy);
     radGetReport(solution, &report);
     ck_assert_uint_eq(report.links, 0);
-    expect_by_hand(device, scene, solution, &choice);
+    expect_by_hand(a.device, a.scene, solution, &choice);
     radReleaseSolution(solution);
     /* Whoever wants links gets them, and who says how to solve for them. */
     wishes.keep_links = 1;
-    solution = radSolveScene(scene, oracle, &linear, &wishes, &choice);
+    solution = radSolveScene(a.scene, a.oracle, &linear, &wishes, &choice);
     radGetReport(solution, &report);
     ck_assert_int_eq(choice.no_links, 0);
     ck_assert_uint_gt(report.links, 0);
     radReleaseSolution(solution);
     const struct RadSolveOptions rows = {.basis = RAD_BASIS_LINEAR, .closure = RAD_CLOSURE_ROWS};
-    solution = radSolveScene(scene, oracle, &rows, NULL, &choice);
+    solution = radSolveScene(a.scene, a.oracle, &rows, NULL, &choice);
     ck_assert_int_eq(choice.no_links, 0);
     radReleaseSolution(solution);
     /* A limit of one's own is met as ever. */
     const struct RadSolveOptions limited = {.basis = RAD_BASIS_LINEAR, .limits = {.pairs = 1000}};
-    ck_assert_ptr_null(radSolveScene(scene, oracle, &limited, NULL, &choice));
-    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_LIMIT);
-    radReleaseOracle(oracle);
-    radReleaseScene(scene);
-    radReleaseDevice(device);
+    ck_assert_ptr_null(radSolveScene(a.scene, a.oracle, &limited, NULL, &choice));
+    ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_LIMIT);
+    release(&a);
 }
 END_TEST
 
 START_TEST(test_refused)
 {
-    RadDevice device = radNewDevice(NULL);
-    RadScene scene = open_scene(device, 0);
-    RadOracle oracle = open_oracle(device);
+    const struct asked a = ask(0);
     struct told told = {.stop = 1};
     const struct RadChoiceOptions wishes = {.begin = begin, .user = &told};
-    ck_assert_ptr_null(radSolveScene(scene, oracle, &linear, &wishes, NULL));
+    ck_assert_ptr_null(radSolveScene(a.scene, a.oracle, &linear, &wishes, NULL));
     ck_assert_int_eq(told.times, 1);
-    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_CANCELLED);
+    ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_CANCELLED);
     const struct RadSolveOptions none = {.no_links = 1}, unit = {.unit = 1};
-    ck_assert_ptr_null(radSolveScene(scene, oracle, &none, NULL, NULL));
-    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_INVALID_ARGUMENT);
-    ck_assert_ptr_null(radSolveScene(scene, oracle, &unit, NULL, NULL));
-    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_INVALID_ARGUMENT);
-    ck_assert_ptr_null(radSolveScene(scene, NULL, NULL, NULL, NULL));
-    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_INVALID_ARGUMENT);
-    ck_assert_ptr_null(radSolveScene(NULL, oracle, NULL, NULL, NULL));
-    radReleaseOracle(oracle);
-    radReleaseScene(scene);
-    radReleaseDevice(device);
+    ck_assert_ptr_null(radSolveScene(a.scene, a.oracle, &none, NULL, NULL));
+    ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_INVALID_ARGUMENT);
+    ck_assert_ptr_null(radSolveScene(a.scene, a.oracle, &unit, NULL, NULL));
+    ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_INVALID_ARGUMENT);
+    ck_assert_ptr_null(radSolveScene(a.scene, NULL, NULL, NULL, NULL));
+    ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_INVALID_ARGUMENT);
+    ck_assert_ptr_null(radSolveScene(NULL, a.oracle, NULL, NULL, NULL));
+    release(&a);
 }
 END_TEST
 

@@ -8,19 +8,13 @@
 # boxes.obj: a room, a box in it, a lamp; TURNED: the box is inside out.
 printf 'newmtl wall\nKd .7 .7 .7\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n' >boxes.mtl
 boxes() {
-    awk -v TURNED="$1" '
-    function box(x, y, z, a, b, c, inside, material,    i) {
-        for (i = 0; i < 8; i++) printf "v %g %g %g\n", x + a * (i % 2), y + b * (int(i / 2) % 2), z + c * int(i / 4)
-        print "usemtl", material
-        split("1 3 4 2 5 6 8 7 1 2 6 5 3 7 8 4 1 5 7 3 2 4 8 6", at, " ")
-        for (i = 0; i < 24; i += 4)
-            print "f", n + at[i+(inside ? 4 : 1)], n + at[i+(inside ? 3 : 2)], n + at[i+(inside ? 2 : 3)], n + at[i+(inside ? 1 : 4)]
-        n += 8
-    }
-    BEGIN {
-        print "mtllib boxes.mtl"
-        box(0, 0, 0, 6, 6, 3, 1, "wall"); box(1, 1, .2, 2, 3, 1.5, TURNED, "wall"); box(2.9, 2.9, 2.8, .5, .5, .1, 0, "lamp")
-    }' >boxes.obj
+    echo 'BEGIN {
+        print "mtllib boxes.mtl"; print "usemtl wall"
+        box(0, 0, 0, 6, 6, 3, 1); box(1, 1, .2, 2, 3, 1.5, TURNED)
+        print "usemtl lamp"
+        box(2.9, 2.9, 2.8, .5, .5, .1)
+    }' >three.awk
+    awk -v TURNED="$1" -f "$top/tests/solver/box.awk" -f three.awk >boxes.obj
 }
 said() {
     count=$((count + 1))

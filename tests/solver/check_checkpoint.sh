@@ -17,20 +17,22 @@ if "$radiosity" solve "$scene" --restart none.h5 2>&1 | grep -q "built without H
     exit
 fi
 value() { sed -n "s/.*\"$1\": \\([^,]*\\),*$/\\1/p" "$2" | tail -n 1; }
-same() { # NAME FILE.json: the answer is that of whole.json
-    for of in link_fingerprint particle_fingerprint power_absorbed passes; do
-        check "$1: the same $of" [ -n "$(value $of whole.json)" -a "$(value $of whole.json)" = "$(value $of "$2")" ]
+same_of() { # NAME FILE.json OTHER.json OF...
+    local name=$1 file=$2 other=$3 of
+    shift 3
+    for of in "$@"; do
+        check "$name: the same $of" [ -n "$(value "$of" "$other")" -a "$(value "$of" "$other")" = "$(value "$of" "$file")" ]
     done
+}
+same() { # NAME FILE.json: the answer is that of whole.json
+    same_of "$1" "$2" whole.json link_fingerprint particle_fingerprint power_absorbed passes
 }
 # NAME FILE.json N: of N processes. Sums of several are rounded otherwise: to 1e-12 the answer is that of whole.json, to the bit that
 # of as many which nobody has stopped, N.json.
-same_of() {
-    for of in link_fingerprint particle_fingerprint passes; do
-        check "$1: the same $of" [ -n "$(value $of whole.json)" -a "$(value $of whole.json)" = "$(value $of "$2")" ]
-    done
-    check "$1: power_absorbed to 1e-12" awk -v a="$(value power_absorbed whole.json)" -v b="$(value power_absorbed "$2")" \
-        'BEGIN { exit !(a > 0 && (a - b) ^ 2 <= (1e-12 * a) ^ 2) }'
-    check "$1: the same power_absorbed as of $3" [ -n "$(value power_absorbed "$3.json")" -a "$(value power_absorbed "$3.json")" = "$(value power_absorbed "$2")" ]
+same_on() {
+    same_of "$1" "$2" whole.json link_fingerprint particle_fingerprint passes
+    same_of "$1" "$2" "$3.json" power_absorbed
+    check "$1: power_absorbed to 1e-12" within "$(value power_absorbed whole.json)" "$(value power_absorbed "$2")" 1e-12
 }
 
 check "at one go" "$radiosity" solve "$scene" -q --json whole.json
@@ -66,14 +68,14 @@ if command -v mpirun >/dev/null && ldd "$radiosity" | grep -q libmpi; then
     for n in 2 3; do
         check "$n processes" mpirun --oversubscribe -n $n "$radiosity" solve "$scene" -q --threads 1 --checkpoint m$n.h5 --json a.json
         [ -e $n.json ] || cp a.json $n.json
-        same_of "$n processes" a.json $n
+        same_on "$n processes" a.json $n
         check "one goes on from $n" "$radiosity" solve "$scene" -q --restart m$n.h5 --json a.json
         same "one from $n" a.json
     done
     check "2 go on from 3" mpirun --oversubscribe -n 2 "$radiosity" solve "$scene" -q --threads 1 --restart m3.h5 --json a.json
-    same_of "2 from 3" a.json 2
+    same_on "2 from 3" a.json 2
     check "4 go on from 1" mpirun --oversubscribe -n 4 "$radiosity" solve "$scene" -q --threads 1 --restart c.h5 --json a.json
-    same_of "4 from 1" a.json 4
+    same_on "4 from 1" a.json 4
 else
     echo "checkpoint: skipped: several processes (make MPI=1, mpirun)"
 fi
@@ -152,7 +154,7 @@ for blocks in 100 800; do # of 1 KB: before the first pass is written, and behin
     check "a full disk: nothing else fails: $(grep -i -m 1 'signal' said)" [ "$(grep -ci 'signal' said)" = 0 ]
     [ -e full.h5 ] || continue
     check "a full disk: it goes on" mpirun --oversubscribe -n 2 "$radiosity" solve "$scene" -q --threads 1 --restart full.h5 --json a.json
-    same_of "behind a full disk" a.json 2
+    same_on "behind a full disk" a.json 2
 done
 check "a full disk left the last good file" [ -e full.h5 ]
 

@@ -26,9 +26,9 @@ wrong() {
 
 # In a room links pay; among boxes that hide each other in part they do not.
 printf 'newmtl wall\nKd .7 .7 .7\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n' >boxes.mtl
-awk -v N=3 -f "$top/tests/solver/hanging_boxes.awk" >boxes.obj
+awk -v N=3 -f "$top/tests/solver/box.awk" -f "$top/tests/solver/hanging_boxes.awk" >boxes.obj
 scaled boxes.obj 16 true
-awk -v N=7 -f "$top/tests/solver/hanging_boxes.awk" >boxes.obj
+awk -v N=7 -f "$top/tests/solver/box.awk" -f "$top/tests/solver/hanging_boxes.awk" >boxes.obj
 scaled boxes.obj null true
 cp faces once
 count=$((count + 1))

@@ -21,9 +21,7 @@ if grep -q 'built without PETSc' said; then
 fi
 
 value() { sed -n "s/^  \"$2\": \(.*[^,]\),*$/\1/p" "$1" | head -n 1; }
-near() { # A B: to 2e-8
-    awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= 2e-8 * (a < 0 ? -a : a)) }'
-}
+near() { within "$1" "$2" 2e-8; }
 light() { # A B TOLERANCE: B and H of two tables, each relative to itself
     awk -F, -v most="$3" 'NR == FNR { line[FNR] = $0; n = FNR; next }
              FNR > 1 { k = split(line[FNR], other, ","); if (k != NF) exit 1

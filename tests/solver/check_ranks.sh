@@ -32,9 +32,7 @@ rank_of() { # COMMAND RANK: wait for the process, then $found is its number
 
 # ---- the same answer
 value() { sed -n "s/^  \"$2\": \(.*[^,]\),*$/\1/p" "$1" | head -n 1; }
-near() { # A B: to 1e-12
-    awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= 1e-12 * (a < 0 ? -a : a)) }'
-}
+near() { within "$1" "$2" 1e-12; }
 same_faces() { # A B: all numbers of two tables, but for one in the last of the 12 digits that are printed
     awk -F, 'function last(m) { return m > 0 ? exp(log(10) * (int(log(m) / log(10) + 1000) - 1000 - 11)) : 0 }
              NR == FNR { line[FNR] = $0; n = FNR; next }

@@ -24,6 +24,9 @@ check() { # WHAT COMMAND...: the command must succeed
     count=$((count + 1))
     ${quietly:-} "$@" || failed "$what"
 }
+within() { # A B SHARE: is B no farther from A than this share of it?
+    awk -v a="$1" -v b="$2" -v share="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= share * (a < 0 ? -a : a)) }'
+}
 into_files() { # COMMAND...; a script whose checks write too much says quietly=into_files
     "$@" >out 2>err
 }
