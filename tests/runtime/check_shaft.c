@@ -445,7 +445,7 @@ static int same_list(const struct blockers *a, const struct blockers *b)
 }
 
 /* A list that came down from pair to pair is the list made anew, either way round, and so is the
- * answer. */
+ * answer. What the host lists need not be held against the shaft again (host.exact). */
 START_TEST(test_inherited)
 {
     enum { DESCENTS = 500, LEVELS = 8 };
@@ -467,6 +467,12 @@ START_TEST(test_inherited)
             ck_assert_int_eq(ask(&w, turned, &back), answer);
             ck_assert_int_eq(ask(&w, pair, &down), answer);
             ck_assert(same_list(&anew, &back) && same_list(&anew, &down));
+            struct blockers again = anew;
+            if (w.host->exact && anew.count <= BLOCKERS_MAX) {
+                again.known = BLOCKERS_INHERITED;
+                ck_assert_int_eq(ask(&w, pair, &again), answer);
+                ck_assert(same_list(&anew, &again));
+            }
             compared += inherited;
             kept += inherited && anew.count > 0;
             down.known = down.handed ? BLOCKERS_INHERITED : BLOCKERS_UNKNOWN;
