@@ -338,9 +338,9 @@ static inline int shaft_far(const struct shaft *shaft, const double (*v)[3], int
     /* the planes of the axes say so of half of all faces, most often for two comparisons an axis */
     for (int k = 0; k < 3; k++) {
         const double low = -shaft->offset[2 * k] - out, high = shaft->offset[2 * k + 1] + out;
-        const int under = v[0][k]<low, over = v[0][k]> high;
+        const int under = (v[0][k] < low), over = (v[0][k] > high);
         int i = 1;
-        if (!(under | over))
+        if (!under && !over)
             continue;
         while (i < n && (under ? v[i][k] < low : v[i][k] > high))
             i++;
