@@ -8,9 +8,9 @@
  *
  * Quarters start from their parent's light: mean B + g . (centre - parent's centre), and its slope.
  * Where a solid covers a leaf in part, quarters receive by what of them is bare, and reflect what
- * the leaf did. So links alone say what they said. Emitters stay whole: what is reflected there is
- * no linear function. Once the solution is mended, quarters go again where particles had nothing to
- * say that the parent's mean and slope do not. [Derived here]
+ * the leaf did. So links alone say what they said. Once the solution is mended, quarters go again
+ * where particles had nothing to say of what is reflected that the parent's mean and slope do not.
+ * [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -27,15 +27,6 @@ static double received(const struct solve *s, uint32_t leaf)
     for (uint32_t k = 0; k < s->problem.bands; k++)
         sum += s->state.irradiance[(size_t)leaf * s->problem.bands + k];
     return sum * s->hierarchy.elements[leaf].area;
-}
-
-static int may_split(const struct solve *s, uint32_t leaf)
-{
-    const struct element *e = &s->hierarchy.elements[leaf];
-    int dark = 1;
-    for (uint32_t k = 0; k < s->problem.bands; k++)
-        dark &= !(s->problem.exitance[(size_t)e->face * s->problem.bands + k] > 0);
-    return dark && !e->black;
 }
 
 /* Split until a leaf is worth no more than one part of so many. Returns 0, or -1 when out of
@@ -141,7 +132,7 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
     if (!s->linear.gradient)
         return 0;
     for (uint32_t i = 0; i < first && !failed; i++)
-        failed = h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
+        failed = h->elements[i].vertices && !h->elements[i].children && !h->elements[i].black
                  && split_leaf(s, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0;
     return ranks_any(s->problem.options.ranks, failed) ? -1 : light(s, first);
 }
@@ -162,7 +153,7 @@ static int deal_out(struct solve *s, double per_watt)
     for (uint32_t i = 0; i < h->count; i++) {
         const struct element *e = &h->elements[i];
         const double parts =
-            e->vertices && !e->children && may_split(s, i) ? per_watt * received(s, i) : 0;
+            e->vertices && !e->children && !e->black ? per_watt * received(s, i) : 0;
         for (double n = 1; n < parts; n *= 4)
             quarters[e->face] += 4 * n;
     }
@@ -196,7 +187,7 @@ static int say_nothing(const struct solve *s, uint32_t parent)
 {
     const struct element *elements = s->hierarchy.elements, *at = &elements[parent];
     const double *B = s->mended.radiosity, *gradient = s->mended_gradient,
-                 *bare = s->operator.uncovered;
+                 *bare = s->operator.uncovered, *exitance = s->problem.exitance;
     for (uint32_t j = at->child; j < at->child + at->children; j++) {
         double off[3], radius = elements[j].radius;
         if (elements[j].children || fabs(bare[j] - bare[parent]) > DETAIL_SAYS)
@@ -205,7 +196,8 @@ static int say_nothing(const struct solve *s, uint32_t parent)
         for (uint32_t k = 0; k < s->problem.bands; k++) {
             size_t here = (size_t)j * s->problem.bands + k,
                    above = (size_t)parent * s->problem.bands + k;
-            double turned[3], most = DETAIL_SAYS * B[above];
+            double turned[3], emitted = exitance[(size_t)at->face * s->problem.bands + k],
+                              most = DETAIL_SAYS * (B[above] - emitted);
             sub3(turned, &gradient[3 * here], &gradient[3 * above]);
             double by_parent = B[above] + dot3(&gradient[3 * above], off);
             if (fabs(B[here] - by_parent) + sqrt(dot3(turned, turned)) * radius > most)

@@ -32,9 +32,10 @@ static int make_gradients(struct linear_solution *s, const struct light_operator
         for (uint32_t k = 0; e->vertices && k < bands; k++) {
             size_t at = (size_t)i * bands + k;
             const double *slope = &x->value[3 * at + 1];
-            double mean = x->means->value[at], least, most;
+            double emitted = op->problem->exitance[(size_t)e->face * bands + k],
+                   reflected = x->means->value[at] - emitted, least, most;
             linear_basis_range(&l->basis[i], e, slope, &least, &most);
-            double keep = !(mean > 0) ? 0 : mean + least < 0 ? mean / -least : 1;
+            double keep = !(reflected > 0) ? 0 : reflected + least < 0 ? reflected / -least : 1;
             for (int c = 0; c < 3; c++)
                 s->gradient[3 * at + (size_t)c] =
                     keep * (slope[0] * l->basis[i].g[0][c] + slope[1] * l->basis[i].g[1][c]);

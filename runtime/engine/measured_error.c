@@ -178,8 +178,7 @@ void measured_error_free(struct measured_error *m)
     *m = (struct measured_error){0};
 }
 
-/* Slopes of linear elements go with what is reflected, so that no corner falls below 0: an
- * emitter's are made no steeper. */
+/* Slopes of linear elements go with what is reflected, so that none is below 0 at a corner. */
 static void mend_gradients(const void *solve, size_t from, size_t to)
 {
     const struct solve *s = solve;
@@ -192,8 +191,7 @@ static void mend_gradients(const void *solve, size_t from, size_t to)
         double linked = s->state.radiosity[i] - exitance;
         double ratio = linked > 0 ? (s->mended.radiosity[i] - exitance) / linked : 0;
         for (size_t c = 0; c < 3; c++)
-            s->mended_gradient[3 * i + c] =
-                s->linear.gradient[3 * i + c] * (exitance > 0 ? fmin(ratio, 1) : ratio);
+            s->mended_gradient[3 * i + c] = s->linear.gradient[3 * i + c] * ratio;
     }
 }
 
