@@ -89,8 +89,7 @@ static void inherit_some(const void *inheriting, size_t from, size_t to)
             inherit_below(x->s, i);
 }
 
-/* Room for new elements, from `first` on, and their light. Returns 0, or -1 when out of memory. */
-static int light(struct solve *s, uint32_t first)
+int detail_light(struct solve *s, uint32_t first)
 {
     struct hierarchy *h = &s->hierarchy;
     if ((own_quarters(s) ? s->quarters.count : h->count) == first)
@@ -134,7 +133,7 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
     for (uint32_t i = 0; i < first && !failed; i++)
         failed = h->elements[i].vertices && !h->elements[i].children && !h->elements[i].black
                  && split_leaf(s, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0;
-    return ranks_any(s->problem.options.ranks, failed) ? -1 : light(s, first);
+    return ranks_any(s->problem.options.ranks, failed) ? -1 : detail_light(s, first);
 }
 
 /* Of several ranks each makes the quarters of its own faces: as many, about, as any other. Returns

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/ambient.h"
+#include "engine/covered_leaves.h"
 #include "engine/detail.h"
 #include "engine/dim_faces.h"
 #include "engine/measured_error.h"
@@ -426,6 +427,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     s->by_paths = 0;
     int failed = own_quarters_share(s) < 0 || tracer_open(&t) < 0
                  || (s->problem.options.no_links && look_ahead(s, &t, &left, &spent) < 0);
+    failed = failed || covered_leaves(s) < 0;
     const uint32_t elements = s->hierarchy.count;
     failed = failed || detail_leaves(s, landings(&left)) < 0
              || tally_open(&tally, &t, MEND_STREAM, 1) < 0 || look(s, &t, &tally, &paths, goal) < 0
