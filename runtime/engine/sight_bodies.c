@@ -1,4 +1,4 @@
-/* sight_bodies.c - what a point sees of a convex polygon past convex solids and single faces.
+/* sight_bodies.c - what a point sees of a convex polygon past convex solids.
  *
  * Each hides one convex polygon of the plane. Nothing is cut out: Lambert's sum goes around what is
  * seen, and that is the rim of the polygon, as far as it lies outside of all shadows, and the rims
@@ -33,12 +33,12 @@ static int add_plane(struct sight_bodies *b, const double plane[4])
     return b->planes++;
 }
 
-/* The plane of a face, or its back. */
+/* The plane of a face. */
 static int add_plane_of(struct sight_bodies *b, const struct element *e,
-                        const struct outline_frame *f, double sign)
+                        const struct outline_frame *f)
 {
-    double p[3], plane[4] = {sign * dot3(e->normal, f->u), sign * dot3(e->normal, f->v),
-                             sign * dot3(e->normal, f->n), 0};
+    double p[3],
+        plane[4] = {dot3(e->normal, f->u), dot3(e->normal, f->v), dot3(e->normal, f->n), 0};
     sight_in_plane(f, e->vertex[0], p);
     plane[3] = dot3(plane, p);
     return add_plane(b, plane);
@@ -83,24 +83,6 @@ static int add_foot(struct sight_bodies *b, const int *corner, int n, int left, 
     return add_edge(b, down, add_corner(b, foot[1]), left, right);
 }
 
-static int add_single(struct sight_bodies *b, const struct element *e,
-                      const struct outline_frame *f)
-{
-    int corner[4];
-    double p[3];
-    for (int i = 0; i < e->vertices; i++) {
-        sight_in_plane(f, e->vertex[i], p);
-        corner[i] = add_corner(b, p);
-        if (corner[i] < 0)
-            return -1;
-    }
-    const int left = add_plane_of(b, e, f, 1), right = add_plane_of(b, e, f, -1);
-    for (int i = 0; i < e->vertices; i++)
-        if (add_upper(b, corner[i], corner[i + 1 < e->vertices ? i + 1 : 0], left, right) < 0)
-            return -1;
-    return add_foot(b, corner, e->vertices, left, right);
-}
-
 static int add_solid(struct sight_bodies *b, const struct exchange_tree *t, const struct body *body,
                      const struct outline_frame *f)
 {
@@ -115,7 +97,7 @@ static int add_solid(struct sight_bodies *b, const struct exchange_tree *t, cons
             return -1;
     }
     for (int i = 0; i < body->faces; i++)
-        if (add_plane_of(b, &t->h.elements[all->faces[body->face + (uint32_t)i]], f, 1) < 0)
+        if (add_plane_of(b, &t->h.elements[all->faces[body->face + (uint32_t)i]], f) < 0)
             return -1;
     for (int i = 0; i < body->edges; i++) {
         const struct body_edge *e = &all->edges[body->edge + (uint32_t)i];
@@ -144,42 +126,36 @@ static int add_solid(struct sight_bodies *b, const struct exchange_tree *t, cons
 }
 
 /* The next body is made: where the one after it begins. */
-static void add_body(struct sight_bodies *b, int solid)
+static void add_body(struct sight_bodies *b)
 {
     struct sight_body *body = &b->body[b->count];
-    body->solid = solid;
     if (b->edges > body->edge) {
         body = &b->body[++b->count];
     } else { /* all of it is under the plane */
         b->corners = body->corner;
         b->planes = body->plane;
     }
-    *body = (struct sight_body){b->corners, b->planes, b->edges, 0};
+    *body = (struct sight_body){b->corners, b->planes, b->edges};
 }
 
 int sight_bodies_place(struct sight_bodies *b, const struct exchange_tree *t, const uint32_t *list,
                        int count, const struct outline_frame *f)
 {
     uint32_t met[SIGHT_BODIES];
-    int singles = 0, bodies = 0;
+    int bodies = 0;
     b->count = b->corners = b->planes = b->edges = 0;
     b->body[0] = (struct sight_body){0};
     for (int i = 0; i < count; i++) {
         const uint32_t of = t->bodies.of[list[i]];
         int k = 0;
-        while (of && k < bodies && met[k] != of)
+        while (k < bodies && met[k] != of)
             k++;
         if (of && k < bodies)
             continue;
-        if (b->count == SIGHT_BODIES || bodies == SIGHT_BODIES || (!of && ++singles > SIGHT_SINGLE))
+        if (!of || bodies == SIGHT_BODIES || add_solid(b, t, &t->bodies.body[of - 1], f) < 0)
             return 0;
-        if ((of ? add_solid(b, t, &t->bodies.body[of - 1], f)
-                : add_single(b, &t->h.elements[list[i]], f))
-            < 0)
-            return 0;
-        add_body(b, of != 0);
-        if (of)
-            met[bodies++] = of;
+        add_body(b);
+        met[bodies++] = of;
     }
     for (int i = b->corners; i % LANES_MOST; i++) /* computed, not read */
         b->corner[0][i] = b->corner[1][i] = b->corner[2][i] = 0;
@@ -364,7 +340,7 @@ static int begins(const struct casting *c, const struct sight_body_edge *e)
 static int covers(const struct casting *c, const struct sight_bodies *b,
                   const struct sight_body *body, const struct outline_cell *cell, double size)
 {
-    int outlines = 0, front = !body->solid;
+    int outlines = 0, front = 0;
     for (int i = body->edge; i < body[1].edge; i++) {
         const struct sight_body_edge *e = &b->edge[i];
         const int p = begins(c, e), q = p == e->from ? e->to : e->from;

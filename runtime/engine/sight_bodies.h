@@ -1,4 +1,4 @@
-/* sight_bodies.h - what a point sees of a convex polygon past convex solids and single faces.
+/* sight_bodies.h - what a point sees of a convex polygon past convex solids.
  * SPDX-License-Identifier: MIT */
 #ifndef SIGHT_BODIES_H
 #define SIGHT_BODIES_H
@@ -7,14 +7,12 @@
 #include "engine/sight_pieces.h"
 #include "kernel/lanes.h"
 
-/* the most of a list, and of all their corners, planes and edges; single faces: of a mesh, outlines
- * have fewer edges, and 16 of them cost more so than less (measured) */
+/* the most of a list, and of all their corners, planes and edges */
 enum {
     SIGHT_BODIES = 32,
     SIGHT_BODY_CORNERS = 512,
     SIGHT_BODY_PLANES = 512,
-    SIGHT_BODY_EDGES = 1024,
-    SIGHT_SINGLE = 4
+    SIGHT_BODY_EDGES = 1024
 };
 
 /* Corners and planes, n . p - c, in the coordinates of the plane that shadows are cast on; edges by
@@ -23,7 +21,6 @@ struct sight_bodies {
     int count, corners, planes, edges;
     struct sight_body {
         int corner, plane, edge; /* where its own begin */
-        int solid;               /* 0: a face, of which any edge is an outline */
     } body[SIGHT_BODIES + 1];
     double corner[3][SIGHT_BODY_CORNERS], plane[4][SIGHT_BODY_PLANES];
     struct sight_body_edge {
@@ -31,8 +28,8 @@ struct sight_bodies {
     } edge[SIGHT_BODY_EDGES];
 };
 
-/* Of the faces of a list and the bodies they are part of. Returns 0 when there are too many, or
- * they are a mesh. */
+/* Of the bodies that the faces of a list are part of. Returns 0 when there are too many, or a face
+ * is of none. */
 int sight_bodies_place(struct sight_bodies *bodies, const struct exchange_tree *tree,
                        const uint32_t *list, int count, const struct outline_frame *frame);
 
