@@ -118,6 +118,12 @@ quarters by their place | runtime/hierarchy/quarters.c | s/return q->common + lo
 children of several are not told | runtime/engine/mend_places.c | s/            p->at\[c\] = p->held++;/            (void)c;/ | runtime/check_own_counts
 what others have is counted here | runtime/particles/landing_mail.c | s/    if (tally_holds(tally, face)) {/    if (1) {/ | runtime/check_own_counts
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
+shadows do not grow | runtime/engine/sight_bodies.c | s/GROWS = 1e-11/GROWS = 0/ | runtime/check_bodies
+short shadows have directions | runtime/engine/sight_bodies.c | s/SHORT = 1e-9/SHORT = 0/ | runtime/check_bodies
+shadows hide no others | runtime/engine/sight_bodies.c | s/s == own ? 0 : 1;/s == own ? 0 : 0;/ | runtime/check_bodies
+plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* h->flat/deepest <= 0/ | runtime/check_bodies
+dents are solid | runtime/hierarchy/bodies.c | s/if (height > h->flat/if (height > 1e9/ | runtime/check_bodies
+pairs in another's plane | runtime/engine/exchange_sight.c | s/g->plane = g->from_r ? s : r/g->plane = g->from_r ? r : s/ | runtime/check_outlines
 END
 }
 
