@@ -16,8 +16,7 @@
  * times. Then s^2 ((L' / L)^.4 - 1) / e^2 rays are spared, fewer than L' for every L' where e^2 is
  * above s^2 / (FINER L): particles are the cheaper way, and the coarse links stay. Finer links are
  * solved for anew: what was given up coarsely is not missed then. All follows from counts, so the
- * choice is the same on any machine, and on any number of them: several do not stop at a limit, for
- * each knows its own pairs alone, but ask afterwards. [Derived here]
+ * choice is the same on any machine, and on any number of them. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/api.h"
@@ -48,15 +47,12 @@ struct choosing {
 static int solve(struct choosing *x, double scale, double pairs, RadSolution *solution)
 {
     struct RadSolveOptions options = x->options;
-    struct RadReport report;
-    RadDevice device = x->scene->device;
     /* a limit of the caller's own that comes sooner is met as ever */
     const int limited =
-                  pairs > 0 && !(options.limits.pairs > 0 && (double)options.limits.pairs <= pairs),
-              dear = limited && !device->ranks;
+        pairs > 0 && !(options.limits.pairs > 0 && (double)options.limits.pairs <= pairs);
     const double start = seconds();
     options.no_links = x->so_far.no_links;
-    if (dear)
+    if (limited)
         options.limits.pairs = (uint64_t)pairs;
     x->so_far.scale = scale;
     *solution = NULL;
@@ -67,12 +63,10 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
         return -1;
     int status = 0;
     if (x->wishes.begin && x->wishes.begin(x->wishes.user, s, &x->so_far) != 0)
-        status = api_fail(device, RAD_ERROR_CANCELLED, "given up by whoever wanted to begin it");
+        status = api_fail(x->scene->device, RAD_ERROR_CANCELLED,
+                          "given up by whoever wanted to begin it");
     if (status == 0)
-        status = api_solve(s, dear);
-    radGetReport(s, &report);
-    if (status == 0 && limited && (double)report.pairs > pairs)
-        status = 1;
+        status = api_solve(s, limited);
     if (status == 0)
         *solution = s;
     else

@@ -29,6 +29,7 @@
 #include "engine/refine.h"
 #include "kernel/constants.h"
 #include "oracle/follow.h"
+#include "util/ranks.h"
 
 /* Bytes that are there now: of the machine, or what a limit on the address space leaves. */
 static double memory_there(void)
@@ -66,6 +67,8 @@ struct limits limits_complete(struct limits wanted)
     return l;
 }
 
+static const char *const PAIRS = "pairs";
+
 static uint64_t parts_of(const struct refinement *r)
 {
     return r->hierarchy->count - r->built;
@@ -87,9 +90,23 @@ const char *limits_met(const struct refinement *r)
     return r->deepest > l->depth         ? "depth"
            : parts_of(r) > most_parts(r) ? "elements"
            : r->link_count > l->links    ? "links"
-           : r->pairs > l->pairs         ? "pairs"
+           : r->pairs > l->pairs         ? PAIRS
            : r->rounds > l->rounds       ? "rounds"
                                          : NULL;
+}
+
+int limits_share(struct refinement *r, struct ranks *ranks, int failed)
+{
+    const int met = failed && r->met == PAIRS;
+    uint64_t all[3] = {r->pairs, (uint64_t)met, (uint64_t)(failed && !met)};
+    if (ranks_count(ranks) == 1 || r->deal)
+        return ranks_any(ranks, failed);
+    ranks_add_counts(ranks, RANKS_PAIRS, all, 3);
+    if (all[2])
+        r->met = met ? NULL : r->met;
+    else if (all[1] || all[0] > r->limits.pairs)
+        r->met = PAIRS;
+    return all[2] || r->met;
 }
 
 /* ---- what is said */

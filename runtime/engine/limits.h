@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+struct ranks;
 struct refinement;
 struct refiner;
 
@@ -23,6 +24,11 @@ struct limits limits_complete(struct limits wanted);
 /* Which limit does refinement meet before it carries out another decision? NULL: none; else its
  * name, and r->limits says what it is. */
 const char *limits_met(const struct refinement *r);
+
+/* The same of several ranks, each of which has refined its part and has failed or not: pairs are
+ * theirs together, and a limit that one of them has met all have met, unless one failed for another
+ * reason. Returns whether refinement ends here. */
+int limits_share(struct refinement *r, struct ranks *ranks, int failed);
 
 /* What was reached, in a sentence or two; `graph` is the oracle interpreted, with the same
  * parameters, and names the node that is at fault (NULL: nobody can). */

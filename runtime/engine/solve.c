@@ -379,9 +379,10 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
         return -1;
     if (s->trace)
         s->trace->pass = 1;
-    if (ranks_any(p->options.ranks, (p->options.no_links ? refinement_resume(&s->refinement)
-                                                         : refinement_start(&s->refinement))
-                                        < 0)
+    const int failed =
+        (p->options.no_links ? refinement_resume(&s->refinement) : refinement_start(&s->refinement))
+        < 0;
+    if (limits_share(&s->refinement, p->options.ranks, failed)
         || shares_settle(&s->operator.shares, &s->refinement, s->hierarchy.built) < 0
         || ranks_any(p->options.ranks, solve_make_room(s) < 0))
         return fail(s, refining, cause);
@@ -464,7 +465,7 @@ static int64_t refine_again(struct solve *s)
     struct ranks *ranks = s->problem.options.ranks;
     int64_t changed = refinement_again(&s->refinement, s->inputs.changed);
     uint64_t all = changed > 0 ? (uint64_t)changed : 0;
-    if (ranks_any(ranks, changed < 0))
+    if (limits_share(&s->refinement, ranks, changed < 0))
         return -1;
     ranks_add_counts(ranks, RANKS_VALUES, &all, 1);
     if (all > 0

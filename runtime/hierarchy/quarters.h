@@ -37,7 +37,11 @@ static inline uint32_t quarters_number(const struct quarters *q, uint32_t elemen
     return q && q->common && element >= q->common ? q->number[element - q->common] : element;
 }
 
+/* What numbers are looked up in, until a quarter more is made. To be freed; NULL when out of
+ * memory. */
+uint32_t *quarters_drawers(const struct quarters *q, const struct hierarchy *h);
+
 /* The element here that has the number; there is one. */
-uint32_t quarters_here(const struct quarters *q, const struct hierarchy *h, uint32_t number);
+uint32_t quarters_here(const struct quarters *q, const uint32_t *drawers, uint32_t number);
 
 #endif

@@ -7,12 +7,6 @@
 void mail_landing(struct mail *mail, struct tally *tally, int replicate, uint32_t face,
                   uint32_t number, const int64_t w[3])
 {
-    if (tally_holds(tally, face)) {
-        const uint32_t leaf =
-            tally->element ? quarters_here(tally->quarters, tally->hierarchy, number) : 0;
-        tally_count(tally, replicate, face, leaf, w);
-        return;
-    }
     if (mail->failed
         || array_reserve(&mail->letter, mail->count + 1, &mail->capacity, sizeof *mail->letter)
                < 0) {
@@ -44,18 +38,27 @@ static void pack(const struct tally *tally, const struct letter *l, uint32_t *to
     to[1] |= (uint32_t)l->replicate << COUNT_BITS;
 }
 
-static void count_packed(struct tally *tally, const uint32_t *from)
+/* Count some that came, as they were packed. Where each is counted is looked up first: they wait
+ * for memory together. */
+enum { TOGETHER = 64 };
+
+static void count_packed(struct tally *tally, const uint32_t *from, size_t count)
 {
     const uint32_t mask = (1u << COUNT_BITS) - 1;
-    uint32_t leaf = 0, face = from[0];
-    int64_t w[3] = {0, 0, 0};
-    for (uint32_t k = 0; k < tally->bands; k++)
-        w[k] = from[1 + k] & mask;
-    if (tally->element) {
-        leaf = quarters_here(tally->quarters, tally->hierarchy, from[0]);
-        face = tally->hierarchy->elements[leaf].face;
+    uint32_t leaf[TOGETHER] = {0}, face[TOGETHER];
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t number = from[i * words(tally)];
+        if (tally->element)
+            leaf[i] = quarters_here(tally->quarters, tally->drawers, number);
+        face[i] = tally->element ? tally->hierarchy->elements[leaf[i]].face : number;
+        tally_prefetch(tally, (int)(from[i * words(tally) + 1] >> COUNT_BITS), face[i], leaf[i]);
     }
-    tally_count(tally, (int)(from[1] >> COUNT_BITS), face, leaf, w);
+    for (size_t i = 0; i < count; i++, from += words(tally)) {
+        int64_t w[3] = {0, 0, 0};
+        for (uint32_t k = 0; k < tally->bands; k++)
+            w[k] = from[1 + k] & mask;
+        tally_count(tally, (int)(from[1] >> COUNT_BITS), face[i], leaf[i], w);
+    }
 }
 
 /* All letters, by owner; count[ranks]: how many for each. NULL when out of memory. */
@@ -94,8 +97,8 @@ int mail_send(struct mail *mail, int batches, struct tally *tally, struct ranks 
         in = ranks_exchange(ranks, RANKS_PARTICLES, out, size * sizeof *out, count, count + n);
     for (size_t k = 0; k < n && in; k++)
         came += count[n + k];
-    for (size_t i = 0; i < came; i++)
-        count_packed(tally, &in[i * size]);
+    for (size_t i = 0; i < came; i += TOGETHER)
+        count_packed(tally, &in[i * size], came - i < TOGETHER ? came - i : TOGETHER);
     failed = !in;
     free(in);
     free(out);

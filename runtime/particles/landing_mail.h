@@ -41,7 +41,17 @@ static inline void tally_count(struct tally *tally, int replicate, uint32_t face
     }
 }
 
-/* Count w where it is this rank's to count, else write to who does; number: of the leaf. */
+/* Additions would wait for memory one after the other. */
+static inline void tally_prefetch(const struct tally *tally, int replicate, uint32_t face,
+                                  uint32_t leaf)
+{
+    const size_t at = (size_t)replicate * tally->held + tally_place(tally, face);
+    __builtin_prefetch((const void *)&tally->face[at * tally->bands], 1);
+    if (tally->element)
+        __builtin_prefetch((const void *)&tally->element[(size_t)leaf * tally->bands], 1);
+}
+
+/* Write to the owner of the face; number: of the leaf. */
 void mail_landing(struct mail *mail, struct tally *tally, int replicate, uint32_t face,
                   uint32_t number, const int64_t w[3]);
 

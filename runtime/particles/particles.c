@@ -84,26 +84,22 @@ static void find_leaves(const struct tally *tally, const struct tracer *t,
         leaf[i] = walk[i].at;
 }
 
-/* Additions would wait for memory one after the other. */
-static void prefetch(const struct tally *tally, const struct batch *batch, const uint32_t *leaf)
-{
-    for (int i = 0; i < batch->landed; i++) {
-        const size_t face = (size_t)batch->replicate * tally->faces + batch->landing[i].face;
-        __builtin_prefetch((const void *)&tally->face[face * tally->bands], 1);
-        if (tally->element)
-            __builtin_prefetch((const void *)&tally->element[(size_t)leaf[i] * tally->bands], 1);
-    }
-}
-
 /* Count what has landed. Returns the leaf of the last, or 0 where leaves are not counted on. */
 static uint32_t count_landings(struct tally *tally, const struct tracer *t, struct batch *batch)
 {
     const int count = batch->landed;
     uint32_t leaf[LANDINGS] = {0};
+    int here[LANDINGS];
     if (tally->element)
         find_leaves(tally, t, batch->landing, count, leaf);
-    if (!batch->mail)
-        prefetch(tally, batch, leaf);
+    const uint32_t last = count > 0 ? leaf[count - 1] : 0;
+    for (int i = 0; i < count; i++) {
+        here[i] = !batch->mail || tally_holds(tally, batch->landing[i].face);
+        if (here[i] && batch->mail && tally->element)
+            leaf[i] = quarters_here(tally->quarters, tally->drawers, leaf[i]);
+        if (here[i])
+            tally_prefetch(tally, batch->replicate, batch->landing[i].face, leaf[i]);
+    }
     for (int i = 0; i < count; i++) {
         const struct landing *l = &batch->landing[i];
         int64_t w[3] = {0, 0, 0};
@@ -112,13 +108,13 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
             batch->first[k] += w[k];
             batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
         }
-        if (batch->mail)
-            mail_landing(batch->mail, tally, batch->replicate, l->face, leaf[i], w);
-        else
+        if (here[i])
             tally_count(tally, batch->replicate, l->face, leaf[i], w);
+        else
+            mail_landing(batch->mail, tally, batch->replicate, l->face, leaf[i], w);
     }
     batch->landed = 0;
-    return count > 0 ? leaf[count - 1] : 0;
+    return last;
 }
 
 /* Returns the leaf that is met where a window asks for it. */

@@ -33,10 +33,11 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
     if (leaves) {
         tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
         tally->made = q ? NULL : malloc(tally->elements * sizeof *tally->made);
+        tally->drawers = q ? quarters_drawers(q, h) : NULL;
         tally->first = q ? q->child : tally->made;
     }
     if (!tally->face || !tally->back || !tally->square
-        || (leaves && (!tally->element || !tally->first))) {
+        || (leaves && (!tally->element || !tally->first || (q && !tally->drawers)))) {
         tally_close(tally);
         return -1;
     }
@@ -51,8 +52,10 @@ void tally_forget_leaves(struct tally *tally)
 {
     free(tally->element);
     free(tally->made);
+    free(tally->drawers);
     tally->element = NULL;
     tally->made = NULL;
+    tally->drawers = NULL;
     tally->first = NULL;
 }
 
@@ -62,6 +65,7 @@ void tally_close(struct tally *tally)
     free(tally->back);
     free(tally->element);
     free(tally->made);
+    free(tally->drawers);
     free(tally->square);
     free(tally->until);
     free(tally->carried);

@@ -13,6 +13,7 @@
 #include "output/export_assimp.h"
 #include "output/export_xdmf.h"
 #include "output/exposure.h"
+#include "output/far_away.h"
 #include "output/leaf_mesh.h"
 #include "util/report.h"
 
@@ -51,12 +52,17 @@ static int measure(const struct solution *s, struct exposure *exposure)
     return 0;
 }
 
+static void put_bits(FILE *out, uint64_t bits, int size)
+{
+    unsigned char bytes[8];
+    for (int i = 0; i < size; i++)
+        bytes[i] = (unsigned char)(bits >> 8 * i);
+    fwrite(bytes, 1, (size_t)size, out);
+}
+
 static void put_u32(FILE *out, uint32_t value)
 {
-    unsigned char bytes[4];
-    for (int i = 0; i < 4; i++)
-        bytes[i] = (unsigned char)(value >> 8 * i);
-    fwrite(bytes, 1, 4, out);
+    put_bits(out, value, 4);
 }
 
 static void put_float(FILE *out, double value)
@@ -67,22 +73,32 @@ static void put_float(FILE *out, double value)
     put_u32(out, bits);
 }
 
+static void put_double(FILE *out, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    put_bits(out, bits, 8);
+}
+
 static void write_ply(FILE *out, const struct leaf_mesh *m, const struct vertex_values *v,
                       const float *colour)
 {
+    double middle[3];
+    void (*const put_coordinate)(FILE *, double) = far_away(v, middle) > 0 ? put_double : put_float;
+    const char *type = put_coordinate == put_double ? "double" : "float";
     fprintf(out,
             "ply\nformat binary_little_endian 1.0\n"
             "comment radiosity_K is B of band K in W/m2; red, green, blue show it exposed, sRGB\n"
-            "element vertex %u\nproperty float x\nproperty float y\nproperty float z\n"
+            "element vertex %u\nproperty %s x\nproperty %s y\nproperty %s z\n"
             "property uchar red\nproperty uchar green\nproperty uchar blue\n",
-            (unsigned)v->count);
+            (unsigned)v->count, type, type, type);
     for (uint32_t k = 0; k < v->bands; k++)
         fprintf(out, "property float radiosity_%u\n", (unsigned)k);
     fprintf(out, "element face %u\nproperty list uint uint vertex_indices\nend_header\n",
             (unsigned)m->polygons);
     for (uint32_t i = 0; i < v->count; i++) {
         for (int k = 0; k < 3; k++)
-            put_float(out, v->vertices[i].position[k]);
+            put_coordinate(out, v->vertices[i].position[k]);
         for (int k = 0; k < 3; k++)
             putc(srgb_byte((double)colour[3 * (size_t)i + (size_t)k]), out);
         for (uint32_t k = 0; k < v->bands; k++)

@@ -4,7 +4,9 @@
  * edge are inserted there, so that no program shows cracks. Colours are the radiosity as a picture
  * would show it (exposed). In .ply each vertex has
  *     float x y z, uchar red green blue (sRGB), float radiosity_0 [radiosity_1 radiosity_2] (W/m2)
- * in binary, little endian. glTF holds linear colours (COLOR_0) and an unlit material, so that
+ * in binary, little endian; x y z are double where float would bend the mesh (far_away.h), whose
+ * node in glTF is then moved, and .obj, which Assimp writes in single precision, is warned of.
+ * glTF holds linear colours (COLOR_0) and an unlit material, so that
  * viewers show the radiosity and nothing else, with y up as glTF wants it; .obj holds sRGB colours
  * behind the coordinates of each vertex, as MeshLab and Blender read them. .gltf comes with a .bin
  * and .obj with a .mtl, .xdmf with a .h5 (export_xdmf.h). Read as scenes, .obj and glTF have the

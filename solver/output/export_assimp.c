@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "geometry.h"
+#include "output/far_away.h"
 #include "output/view.h"
 #include "util/assimp_library.h"
 #include "util/atomic_file.h"
@@ -99,7 +101,8 @@ static void close_file(struct aiFileIO *io, struct aiFile *file)
  * when it has to part shared vertices of polygons itself. It joins equal ones again where the
  * format wants it. */
 static int fill_mesh(struct aiMesh *to, const struct leaf_mesh *mesh, uint32_t material,
-                     const struct vertex_values *values, const float *colour, unsigned int *index)
+                     const struct vertex_values *values, const double origin[3],
+                     const float *colour, unsigned int *index)
 {
     uint32_t corners = 0, polygons = 0;
     for (uint32_t i = 0; i < mesh->polygons; i++)
@@ -121,7 +124,8 @@ static int fill_mesh(struct aiMesh *to, const struct leaf_mesh *mesh, uint32_t m
         to->mPrimitiveTypes |=
             face->mNumIndices > 3 ? aiPrimitiveType_POLYGON : aiPrimitiveType_TRIANGLE;
         for (uint32_t j = mesh->start[i]; j < mesh->start[i + 1]; j++) {
-            const double *p = values->vertices[mesh->corner[j]].position;
+            double p[3];
+            sub3(p, values->vertices[mesh->corner[j]].position, origin);
             const float *c = &colour[3 * (size_t)mesh->corner[j]];
             to->mVertices[to->mNumVertices] =
                 (struct aiVector3D){(float)p[0], (float)p[1], (float)p[2]};
@@ -204,7 +208,8 @@ static int fill_material(struct written_material *w, const struct surfaces *s, u
     return 0;
 }
 
-/* A scene of one mesh per material that is used, all below one node. */
+/* A scene of one mesh per material that is used, all below one node, which moves them by `origin`.
+ */
 struct written_scene {
     struct aiScene scene;
     struct aiNode node;
@@ -216,7 +221,7 @@ struct written_scene {
 
 static int fill_scene(struct written_scene *w, const struct surfaces *s, int obj,
                       const struct leaf_mesh *mesh, const struct vertex_values *values,
-                      const float *colour)
+                      const double origin[3], const float *colour)
 {
     uint32_t most = 0, count = 0, corners = 0;
     for (uint32_t i = 0; i < mesh->polygons; i++)
@@ -239,7 +244,7 @@ static int fill_scene(struct written_scene *w, const struct surfaces *s, int obj
             continue;
         w->scene.mNumMeshes = n + 1;
         failed = fill_material(&w->written[n], s, i, obj)
-                 || fill_mesh(&w->shape[n], mesh, i, values, colour, w->index);
+                 || fill_mesh(&w->shape[n], mesh, i, values, origin, colour, w->index);
         corners = w->shape[n].mNumVertices > corners ? w->shape[n].mNumVertices : corners;
         w->shape[n].mMaterialIndex = n;
         w->shapes[n] = &w->shape[n];
@@ -250,10 +255,11 @@ static int fill_scene(struct written_scene *w, const struct surfaces *s, int obj
     for (uint32_t i = 0; i < corners && !failed; i++)
         w->index[i] = i;
     free(used);
-    w->node.mTransformation = (struct aiMatrix4x4){1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const float x = (float)origin[0], y = (float)origin[1], z = (float)origin[2];
+    w->node.mTransformation = (struct aiMatrix4x4){1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1};
     if (!obj && view_up_axis(s) == 2) /* to y up: (x, y, z) becomes (x, z, -y) */
         w->node.mTransformation =
-            (struct aiMatrix4x4){1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
+            (struct aiMatrix4x4){1, 0, 0, x, 0, 0, 1, z, 0, -1, 0, -y, 0, 0, 0, 1};
     w->node.mNumMeshes = w->scene.mNumMaterials = w->scene.mNumMeshes;
     w->node.mMeshes = w->meshes;
     w->scene.mRootNode = &w->node;
@@ -285,10 +291,21 @@ int export_assimp(const char *path, const char *id, const struct surfaces *surfa
     const struct assimp *assimp = assimp_load(path);
     if (!assimp)
         return -1;
+    const int obj = strcmp(id, "obj") == 0;
+    double origin[3];
+    const double moved = far_away(values, origin);
+    if (obj && moved > 0) {
+        report_warning(
+            path, 0,
+            "single precision moves corners by up to %.2g m, so far from the origin they "
+            "are; write .ply, .glb or .xdmf",
+            moved);
+        memset(origin, 0, sizeof origin);
+    }
     struct written_scene *w = calloc(1, sizeof *w);
     struct written_files *files = calloc(1, sizeof *files);
     int result = -1;
-    if (!w || !files || fill_scene(w, surfaces, strcmp(id, "obj") == 0, mesh, values, colour)) {
+    if (!w || !files || fill_scene(w, surfaces, obj, mesh, values, origin, colour)) {
         report_error(path, 0, "out of memory for the mesh; write .ply, which needs less");
     } else {
         struct aiFileIO io = {open_file, close_file, (aiUserData)(void *)files};

@@ -158,16 +158,18 @@ START_TEST(test_first_of_two)
         uint32_t number = h->face_element[h->order[i]];
         while (x.quarters.child[number])
             number = x.quarters.child[number] + 3;
-        mail_landing(&mail, &own, 2, h->order[i], number, w);
-        ck_assert_uint_eq(mail.count, i < MINE ? 0 : i - MINE + 1);
+        ck_assert_int_eq(tally_holds(&own, h->order[i]), i < MINE);
         if (i < MINE) {
-            const uint32_t e = quarters_here(&x.quarters, h, number);
+            const uint32_t e = quarters_here(&x.quarters, own.drawers, number);
             ck_assert_uint_eq(quarters_number(&x.quarters, e), number);
             ck_assert_uint_eq(h->elements[e].face, h->order[i]);
+            tally_count(&own, 2, h->order[i], e, w);
             ck_assert_int_eq(own.element[e], w[0]);
             ck_assert_int_eq(own.face[2 * MINE + i], w[0]);
             continue;
         }
+        mail_landing(&mail, &own, 2, h->order[i], number, w);
+        ck_assert_uint_eq(mail.count, i - MINE + 1);
         const struct letter *l = &mail.letter[mail.count - 1];
         ck_assert_uint_eq(l->number, number);
         ck_assert(l->owner == 1 && l->replicate == 2 && l->count[0] == w[0]);

@@ -19,6 +19,7 @@
 #include "load_scene.h"
 #include "output/export.h"
 #include "output/exposure.h"
+#include "output/far_away.h"
 #include "output/image.h"
 #include "output/leaf_mesh.h"
 #include "output/raster.h"
@@ -762,6 +763,62 @@ START_TEST(test_exports)
 }
 END_TEST
 
+/* In coordinates of a map a float is off by a quarter of a metre: PLY takes doubles, glTF moves the
+ * mesh as a whole. */
+START_TEST(test_exports_far_away)
+{
+    static const double moved[3] = {500000, 5400000, 12};
+    double middle[3];
+    struct stage *s = coloured_stage();
+    ck_assert_double_eq(far_away(&s->values, middle), 0);
+    for (uint32_t i = 0; i < s->values.count; i++)
+        for (int k = 0; k < 3; k++)
+            s->values.vertices[i].position[k] += moved[k];
+    ck_assert_double_eq(far_away(&s->values, middle), 0.25);
+
+    const double *p = s->values.vertices[0].position;
+    ck_assert_int_eq(export_write(in_folder("far.ply"), &s->solution, &s->values, NULL), 0);
+    FILE *f = fopen(in_folder("far.ply"), "rb");
+    char line[256];
+    int doubles = 0;
+    while (fgets(line, sizeof line, f) && strcmp(line, "end_header\n") != 0)
+        doubles += strstr(line, "property double ") == line;
+    ck_assert_int_eq(doubles, 3);
+    double read[3];
+    ck_assert_uint_eq(fread(read, sizeof *read, 3, f), 3);
+    fclose(f);
+    ck_assert_mem_eq(read, p, sizeof read);
+
+    ck_assert_int_eq(export_write(in_folder("far.glb"), &s->solution, &s->values, NULL), 0);
+    const struct aiScene *scene = aiImportFile(in_folder("far.glb"), 0);
+    ck_assert_ptr_nonnull(scene);
+    struct aiMatrix4x4 t = scene->mRootNode->mTransformation;
+    if (!scene->mRootNode->mNumMeshes)
+        aiMultiplyMatrix4(&t, &scene->mRootNode->mChildren[0]->mTransformation);
+    double area = 0;
+    for (uint32_t n = 0; n < scene->mNumMeshes; n++)
+        for (uint32_t i = 0; i < scene->mMeshes[n]->mNumFaces; i++) {
+            const unsigned int *c = scene->mMeshes[n]->mFaces[i].mIndices;
+            double v[3][3], a[3], b[3], out[3];
+            for (int j = 0; j < 3; j++) {
+                const struct aiVector3D *q = &scene->mMeshes[n]->mVertices[c[j]];
+                v[j][0] = (double)q->x;
+                v[j][1] = (double)q->y;
+                v[j][2] = (double)q->z;
+            }
+            sub3(a, v[1], v[0]);
+            sub3(b, v[2], v[0]);
+            cross3(out, a, b);
+            area += 0.5 * length3(out);
+        }
+    ck_assert_double_eq_tol(area, 2 + sqrt(2), 1e-5);
+    ck_assert_double_eq_tol((double)t.a4, middle[0], 0.25);
+    ck_assert_double_eq_tol(fmax(fabs((double)t.b4), fabs((double)t.c4)), middle[1], 0.25);
+    aiReleaseImport(scene);
+    stage_free(s);
+}
+END_TEST
+
 /* The bytes of a PLY: header as documented, then radiosity in W/m2 behind each vertex. */
 START_TEST(test_ply_bytes)
 {
@@ -816,6 +873,7 @@ int main(void)
     tcase_add_test(t, test_export_format);
     tcase_add_test(t, test_leaf_mesh);
     tcase_add_test(t, test_exports);
+    tcase_add_test(t, test_exports_far_away);
     tcase_add_test(t, test_ply_bytes);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);

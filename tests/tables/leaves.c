@@ -92,15 +92,20 @@ static int read_vertices(struct leaves *m, struct reader *r, const struct proper
     for (uint32_t i = 0; i < m->vertices; i++)
         for (int k = 0; k < properties; r->at += p[k++].bytes) {
             float f;
+            double d;
             if (r->end - r->at < p[k].bytes)
                 return damaged(r);
-            if (p[k].band == -1 || p[k].bytes != sizeof f)
+            if (p[k].band == -1 || (p[k].bytes != sizeof f && p[k].bytes != sizeof d))
                 continue;
             memcpy(&f, r->at, sizeof f);
-            if (p[k].band >= 0)
-                m->value[(size_t)i * m->bands + (size_t)p[k].band] = (double)f;
+            if (p[k].bytes == sizeof d)
+                memcpy(&d, r->at, sizeof d);
             else
-                m->position[3 * (size_t)i + (size_t)(-2 - p[k].band)] = (double)f;
+                d = (double)f;
+            if (p[k].band >= 0)
+                m->value[(size_t)i * m->bands + (size_t)p[k].band] = d;
+            else
+                m->position[3 * (size_t)i + (size_t)(-2 - p[k].band)] = d;
         }
     return 0;
 }
