@@ -46,12 +46,15 @@ static void fail(const struct ranks *r)
     MPI_Abort(r->all, 1);
 }
 
-/* MPI's own calls wait by asking without end, which costs as much as work does, and takes it from
- * others where ranks share processors. After a while we ask less often. */
-static void finish(MPI_Request request)
+/* Wait until all are here. MPI's own calls wait by asking without end, which costs as much as work
+ * does, and takes it from others where ranks share processors. So who is early asks for a while,
+ * and then from time to time; what is sent afterwards finds all ready. */
+static void meet(const struct ranks *r)
 {
     const struct timespec pause = {0, PAUSE};
+    MPI_Request request;
     int there = 0;
+    MPI_Ibarrier(r->all, &request);
     for (int asked = 0; MPI_Test(&request, &there, MPI_STATUS_IGNORE), !there; asked++)
         if (asked >= ASKED_WITHOUT_PAUSE)
             nanosleep(&pause, NULL);
@@ -64,11 +67,10 @@ static void reduce(const struct ranks *r, enum reduction how, void *value, size_
                               : how == ANY         ? MPI_INT
                                                    : MPI_DOUBLE;
     const MPI_Op op = how == SUM || how == SUM_OF_COUNTS ? MPI_SUM : MPI_MAX;
+    meet(r);
     for (size_t from = 0; from < count; from += PIECE) {
         const size_t n = count - from < PIECE ? count - from : PIECE;
-        MPI_Request request;
-        MPI_Iallreduce(MPI_IN_PLACE, (char *)value + 8 * from, (int)n, type, op, r->all, &request);
-        finish(request);
+        MPI_Allreduce(MPI_IN_PLACE, (char *)value + 8 * from, (int)n, type, op, r->all);
     }
 }
 
@@ -85,10 +87,8 @@ static MPI_Datatype type_of(size_t size)
 static void gather(const struct ranks *r, void *array, size_t size)
 {
     MPI_Datatype type = type_of(size);
-    MPI_Request request;
-    MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, array, r->counts, r->places, type, r->all,
-                    &request);
-    finish(request);
+    meet(r);
+    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, array, r->counts, r->places, type, r->all);
     MPI_Type_free(&type);
 }
 
@@ -96,29 +96,25 @@ static void gather(const struct ranks *r, void *array, size_t size)
 static void exchange(const struct ranks *r, const void *items, void *to, size_t size)
 {
     MPI_Datatype type = type_of(size);
-    MPI_Request request;
-    MPI_Ialltoallv(items, r->counts, r->places, type, to, r->counts + r->count,
-                   r->places + r->count, type, r->all, &request);
-    finish(request);
+    meet(r);
+    MPI_Alltoallv(items, r->counts, r->places, type, to, r->counts + r->count, r->places + r->count,
+                  type, r->all);
     MPI_Type_free(&type);
 }
 
 static void exchange_one(const struct ranks *r, const size_t *to_each, size_t *from_each)
 {
-    MPI_Request request;
-    MPI_Ialltoall(to_each, sizeof *to_each, MPI_BYTE, from_each, sizeof *from_each, MPI_BYTE,
-                  r->all, &request);
-    finish(request);
+    meet(r);
+    MPI_Alltoall(to_each, sizeof *to_each, MPI_BYTE, from_each, sizeof *from_each, MPI_BYTE,
+                 r->all);
 }
 
 static void tell(const struct ranks *r, char *item, size_t size)
 {
-    for (size_t from = 0; from < size; from += PIECE) {
-        MPI_Request request;
-        MPI_Ibcast(item + from, (int)(size - from < PIECE ? size - from : PIECE), MPI_BYTE, 0,
-                   r->all, &request);
-        finish(request);
-    }
+    meet(r);
+    for (size_t from = 0; from < size; from += PIECE)
+        MPI_Bcast(item + from, (int)(size - from < PIECE ? size - from : PIECE), MPI_BYTE, 0,
+                  r->all);
 }
 
 #else

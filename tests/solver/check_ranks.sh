@@ -76,6 +76,16 @@ if [ -n "${THOROUGH:-}" ]; then
     grid=$top/../shared/scenes/gridroom_10000.obj
     if [ -f "$grid" ]; then compare_ranks "$grid" 2 4; else echo "skipped: no gridroom"; fi
 fi
+# ---- a limit on pairs is one of all ranks together: three quarters of the pairs are more than a rank of two discusses
+"$radiosity" solve "$scenes/cornell.obj" -q --scale 1 --no-correct --json one.json
+pairs=$(value one.json pairs)
+several 2 "$radiosity" solve "$scenes/cornell.obj" -q --scale 1 --no-correct --limit pairs=$((pairs * 3 / 4)) >said 2>&1
+status=$?
+check "a limit on pairs that two ranks meet together: exit status $status: $(head -n 3 said)" \
+    [ $status = 1 -a "$(grep -c "did not end within pairs=$((pairs * 3 / 4))" said)" = 1 ]
+several 2 "$radiosity" solve "$scenes/cornell.obj" -q --scale 1 --no-correct --limit pairs="$pairs" --json several.json >said 2>&1
+check "a limit on pairs that nobody meets: exit status $?: $(head -n 3 said)" [ "$(value several.json pairs)" = "$pairs" ]
+rm -f several.json
 # ---- what each has and tells: no rank has the quarters that particles are counted on of all faces, and a sweep tells of what
 # groups alone take as little as they read. Meshes, which all quarters are needed for, have the bytes of one process.
 ranks_most() { sed -n "s/^ *\"$1\": \([0-9.]*\),*$/\1/p" several.json | sort -g | tail -n 1; } # KEY: of the ranks' values
@@ -209,7 +219,7 @@ refused 1 "cannot" solve "$cube" -o no/such/folder.ply
 check "something was written" [ -z "$(find . -name '*.ply*' -o -name 't.csv*')" ]
 
 # ---- a rank that is killed
-several 3 "$radiosity" solve "$scenes/td.obj" -q -o td.ply --json td.json >said 2>&1 &
+several 3 "$radiosity" solve "$scenes/td.obj" --scale .1 -q -o td.ply --json td.json >said 2>&1 &
 run=$!
 rank_of solve 1 && sleep .5 && kill -KILL "$found"
 killed=$SECONDS
