@@ -170,8 +170,12 @@ static double past(const struct looking *l, const double x[3], const double n[3]
 {
     const struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
-    if (l->by_bodies)
-        return sight_bodies_past(&l->sight, x, n, up, l->scratch->bodies, whole);
+    if (l->by_bodies) {
+        const double seen = sight_bodies_past(&l->sight, x, n, up, l->scratch->bodies, whole);
+        if (seen >= 0)
+            return seen;
+        return sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
+    }
     /* edges of two faces; measured */
     const int most = b->faces > SIGHT_SHORT && b->faces <= SIGHT_CUT ? 3 : 4;
     return !b->bent && 2 * b->edges <= most * b->faces

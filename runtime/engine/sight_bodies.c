@@ -181,6 +181,7 @@ struct casting {
     double height[SIGHT_BODY_PLANES];   /* of the point over planes */
     int count, first[SIGHT_BODIES + 1]; /* where their lines begin, and the last one's end */
     struct body_line line[SIGHT_BODY_EDGES]; /* of shadows, one after the other */
+    double sum[2];                           /* of the edges that are gone around */
 };
 
 enum { OUT_ABOVE = 1 << POLYGON_MAX };
@@ -248,6 +249,7 @@ static void start_casting(struct casting *c, const struct sight_bodies *b,
         c->side[i][0] = c->side[i][1] = c->side[i][2] = c->side[i][3] = 0;
     LANES_RUN(lanes_width(), casting_8, casting_4, casting_body, (c, b));
     c->count = c->first[0] = 0;
+    c->sum[0] = c->sum[1] = 0;
 }
 
 /* The end at corner p of an edge to q, or of what of it is between the plane and `most`. */
@@ -302,6 +304,9 @@ static int within(struct body_line *line, const struct outline_cell *cell, const
 
 /* Edges' shadows shorter than this, of the size that counts, have no direction to rely on. */
 static const double SHORT = 1e-9;
+
+/* A point so near to a face's plane, of that size, may be on either side of it. */
+static const double NEARLY = 1e-6;
 
 enum sides { SIDES_NONE, SIDES_IN, SIDES_OUT, SIDES_BOTH };
 
@@ -370,6 +375,9 @@ static int cast_body(struct casting *c, const struct sight_bodies *b, const stru
         out &= c->out[i];
     if (out) /* all of it is beside a side, or above */
         return 0;
+    for (int i = body->plane; i < body[1].plane; i++)
+        if (fabs(c->height[i]) < NEARLY * size)
+            return -1;
     for (int i = body->edge; i < body[1].edge; i++) {
         const struct sight_body_edge *e = &b->edge[i];
         const int p = begins(c, e), q = p == e->from ? e->to : e->from;
@@ -427,7 +435,7 @@ static void add_hidden(struct hidden_parts *parts, double low, double high)
 }
 
 /* Adds what is left of the edge from p to q; turned: from q to p. */
-static void add_rest(struct sight_eye *eye, const double p[2], const double q[2],
+static void add_rest(struct sight_eye *eye, struct casting *c, const double p[2], const double q[2],
                      const struct hidden_parts *parts, int turned)
 {
     double last = 0;
@@ -440,6 +448,8 @@ static void add_rest(struct sight_eye *eye, const double p[2], const double q[2]
                 b[k] = end < 1 ? p[k] + end * (q[k] - p[k]) : q[k];
             }
             sight_eye_edge(eye, turned ? b : a, turned ? a : b);
+            for (int k = 0; k < 2; k++)
+                c->sum[k] += turned ? a[k] - b[k] : b[k] - a[k];
         }
         if (i < parts->count && parts->high[i] > last)
             last = parts->high[i];
@@ -447,7 +457,7 @@ static void add_rest(struct sight_eye *eye, const double p[2], const double q[2]
 }
 
 /* What is seen of the polygon's own edge, from corner j to i. */
-static void add_own(struct sight_eye *eye, const struct casting *c, const struct outline_cell *cell,
+static void add_own(struct sight_eye *eye, struct casting *c, const struct outline_cell *cell,
                     int j, int i)
 {
     struct hidden_parts parts;
@@ -458,11 +468,11 @@ static void add_own(struct sight_eye *eye, const struct casting *c, const struct
             narrow(c->line[k].over[j], c->line[k].over[i], &low, &high);
         add_hidden(&parts, low, high);
     }
-    add_rest(eye, cell->p[j], cell->p[i], &parts, 0);
+    add_rest(eye, c, cell->p[j], cell->p[i], &parts, 0);
 }
 
 /* What is seen beside the edge of shadow `own`. */
-static void add_shadow(struct sight_eye *eye, const struct casting *c, int own,
+static void add_shadow(struct sight_eye *eye, struct casting *c, int own,
                        const struct body_line *line)
 {
     struct hidden_parts parts;
@@ -477,12 +487,15 @@ static void add_shadow(struct sight_eye *eye, const struct casting *c, int own,
         }
         add_hidden(&parts, low, high);
     }
-    add_rest(eye, p, q, &parts, 1);
+    add_rest(eye, c, p, q, &parts, 1);
 }
 
 /* How much more than the one before each shadow grows, of how large the polygon is and a hundredth
  * of how far away; chosen: rounding moves shadows a tenth of that and less. */
 static const double GROWS = 1e-11, AWAY = 1e-2;
+/* A rim that does not come back to where it began within so much has lost an edge, or has one too
+ * many. */
+static const double OPEN = 1e-8;
 
 double sight_bodies_past(const struct sight *sight, const double x[3], const double n[3], double up,
                          const struct sight_bodies *bodies, double *whole)
@@ -503,9 +516,11 @@ double sight_bodies_past(const struct sight *sight, const double x[3], const dou
             size = fabs(cell->p[i][k]) > size ? fabs(cell->p[i][k]) : size;
     size += AWAY * (fabs(c.from[0]) + fabs(c.from[1]) + c.from[2]);
     start_casting(&c, bodies, cell);
-    for (int i = 0; i < bodies->count; i++)
-        if (cast_body(&c, bodies, &bodies->body[i], cell, size, GROWS * size * (i + 1)))
-            return sight_eye_factor(&eye, whole);
+    for (int i = 0; i < bodies->count; i++) {
+        const int all = cast_body(&c, bodies, &bodies->body[i], cell, size, GROWS * size * (i + 1));
+        if (all)
+            return all < 0 ? -1 : sight_eye_factor(&eye, whole);
+    }
     if (c.count == 0) {
         (void)sight_eye_factor(&eye, whole);
         return *whole;
@@ -516,5 +531,7 @@ double sight_bodies_past(const struct sight *sight, const double x[3], const dou
         for (int i = c.first[s]; i < c.first[s + 1]; i++)
             add_shadow(&eye, &c, s, &c.line[i]);
     const double seen = sight_eye_factor(&eye, whole);
+    if (fabs(c.sum[0]) + fabs(c.sum[1]) > OPEN * size)
+        return -1;
     return seen < *whole ? seen : *whole;
 }
