@@ -143,6 +143,9 @@ struct host {
      * helps. */
     int (*candidates)(const struct host *host, const struct shaft *shaft, int most,
                       uint32_t *faces);
+    /* 1: `candidates` lists none too many, either: each is held against the shaft by shaft_meets,
+     * with the corners that `corners` gives, so that nobody need do it again */
+    int exact;
     /* The corners of a face that `candidates` listed. */
     void (*corners)(const struct host *host, uint32_t face, struct polygon *polygon);
     /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that

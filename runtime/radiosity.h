@@ -431,7 +431,8 @@ enum RadBasis {
  * is no answer. The message says what was reached and, of an oracle with a graph, which node
  * decides most of the last subdivisions. 0: the default, which no oracle meets that ends (20
  * splits; 2 million parts of faces more than twice the links and stops; what half of the memory
- * holds; 1e11 discussions, 1e7 rounds). A solution that was refused can only be released. */
+ * holds; 1e11 discussions, 1e7 rounds). Of several ranks `pairs` is the limit of all together, the
+ * others of each. A solution that was refused can only be released. */
 struct RadLimits {
     int depth;                     /* splits below a face, at most 250 */
     uint64_t elements;             /* parts of faces */

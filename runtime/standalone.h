@@ -36,6 +36,7 @@ static inline void host_open(struct host *host,
     host->rank = 0;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;
+    host->exact = 0;
     host->corners = NULL;
     host->optical_depth = NULL;
     totals(host);

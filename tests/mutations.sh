@@ -116,7 +116,8 @@ all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine
 letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
 quarters by their place | runtime/hierarchy/quarters.c | s/return q->common + low;/return q->common;/ | runtime/check_own_counts
 children of several are not told | runtime/engine/mend_places.c | s/            p->at\[c\] = p->held++;/            (void)c;/ | runtime/check_own_counts
-what others have is counted here | runtime/particles/landing_mail.c | s/    if (tally_holds(tally, face)) {/    if (1) {/ | runtime/check_own_counts
+quarters of the next drawer | runtime/hierarchy/quarters.c | s/drawer = &drawers\[(/drawer = \&drawers[1 + (/ | runtime/check_own_counts
+meshes far away | solver/output/far_away.c | s/return moved;/return 0;/ | solver/check_picture
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
 shadows do not grow | runtime/engine/sight_bodies.c | s/GROWS = 1e-11/GROWS = 0/ | runtime/check_bodies
 short shadows have directions | runtime/engine/sight_bodies.c | s/SHORT = 1e-9/SHORT = 0/ | runtime/check_bodies

@@ -413,6 +413,9 @@ struct refiner_host {
      * helps. */
     int (*candidates)(const struct refiner_host *host, const struct refiner_shaft *shaft, int most,
                       uint32_t *faces);
+    /* 1: `candidates` lists none too many, either: each is held against the shaft by shaft_meets,
+     * with the corners that `corners` gives, so that nobody need do it again */
+    int exact;
     /* The corners of a face that `candidates` listed. */
     void (*corners)(const struct refiner_host *host, uint32_t face, struct refiner_polygon *polygon);
     /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that
@@ -467,6 +470,7 @@ static inline void refiner_host_open(struct refiner_host *host,
     host->rank = 0;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;
+    host->exact = 0;
     host->corners = NULL;
     host->optical_depth = NULL;
     totals(host);

@@ -102,11 +102,12 @@ int limits_share(struct refinement *r, struct ranks *ranks, int failed)
     if (ranks_count(ranks) == 1 || r->deal)
         return ranks_any(ranks, failed);
     ranks_add_counts(ranks, RANKS_PAIRS, all, 3);
-    if (all[2])
-        r->met = met ? NULL : r->met;
-    else if (all[1] || all[0] > r->limits.pairs)
+    const int together = !all[2] && (all[1] || all[0] > r->limits.pairs);
+    if (together)
         r->met = PAIRS;
-    return all[2] || r->met;
+    else if (met)
+        r->met = NULL;
+    return together || all[2];
 }
 
 /* ---- what is said */

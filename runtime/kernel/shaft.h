@@ -113,9 +113,9 @@ static inline int shaft_rises(const struct element *e, const struct element *oth
     return rises;
 }
 
-/* The shaft between two surfaces, the same both ways. Returns 0, and makes none, when no parts of
- * them face each other, as surfaces in one plane do not. */
-static inline int shaft_open(struct shaft *shaft, const struct element *receiver,
+/* The ends of the shaft between two surfaces and the box around them, but no planes yet. Returns 0,
+ * and makes nothing, when no parts of them face each other, as surfaces in one plane do not. */
+static inline int shaft_ends(struct shaft *shaft, const struct element *receiver,
                              const struct element *emitter, const struct host *host)
 {
     const struct element *r = receiver->id < emitter->id ? receiver : emitter,
@@ -156,7 +156,13 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
         shaft->low[k] = low - shaft->reach;
         shaft->high[k] = high + shaft->reach;
     }
-    for (int k = 0; k < 6; k++) {
+    return 1;
+}
+
+/* The planes, of a shaft that has ends. */
+static inline void shaft_close(struct shaft *shaft)
+{
+    for (int k = 0; k < SHAFT_AXES; k++) {
         double axis[3] = {0, 0, 0};
         axis[k / 2] = k % 2 ? 1 : -1;
         shaft_planes_add(shaft, axis);
@@ -171,6 +177,16 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
                        shaft->end[end][i + 1 < shaft->points[end] ? i + 1 : 0]);
     }
     shaft_planes_place(lanes_width(), shaft);
+}
+
+/* The shaft between two surfaces, the same both ways. Returns 0, and makes none, when no parts of
+ * them face each other. */
+static inline int shaft_open(struct shaft *shaft, const struct element *receiver,
+                             const struct element *emitter, const struct host *host)
+{
+    if (!shaft_ends(shaft, receiver, emitter, host))
+        return 0;
+    shaft_close(shaft);
     return 1;
 }
 
@@ -231,17 +247,19 @@ static inline int shaft_side(const struct shaft *shaft, const double (*v)[3], in
 {
     double low = INFINITY, high = -INFINITY;
     for (int end = 0; end < 2; end++) {
-        double nearest = INFINITY, across[3];
+        double nearest = INFINITY;
         for (int i = 0; i < shaft->points[end]; i++) {
             double h = height3(shaft->end[end][i], v[0], normal);
             low = h < low ? h : low;
             high = h > high ? h : high;
             nearest = fabs(h) < nearest ? fabs(h) : nearest;
         }
-        cross3(across, normal, shaft->facing[end]);
-        if (nearest < shaft->margin && dot3(across, across) < SHAFT_PARALLEL
-            && shaft_overlaps(shaft, end, v, n))
-            return -1;
+        if (nearest < shaft->margin) {
+            double across[3];
+            cross3(across, normal, shaft->facing[end]);
+            if (dot3(across, across) < SHAFT_PARALLEL && shaft_overlaps(shaft, end, v, n))
+                return -1;
+        }
     }
     return low >= -shaft->touch || high <= shaft->touch;
 }
@@ -316,7 +334,20 @@ static inline int shaft_cutting(const struct shaft *shaft, const struct cut *who
  * reach. */
 static inline int shaft_far(const struct shaft *shaft, const double (*v)[3], int n)
 {
-    return shaft_planes_far(lanes_width(), shaft, 4 * shaft->reach, v, n);
+    const double out = 4 * shaft->reach;
+    /* the planes of the axes say so of half of all faces, most often for two comparisons an axis */
+    for (int k = 0; k < 3; k++) {
+        const double low = -shaft->offset[2 * k] - out, high = shaft->offset[2 * k + 1] + out;
+        const int under = (v[0][k] < low), over = (v[0][k] > high);
+        int i = 1;
+        if (!under && !over)
+            continue;
+        while (i < n && (under ? v[i][k] < low : v[i][k] > high))
+            i++;
+        if (i == n)
+            return 1;
+    }
+    return shaft_planes_far(lanes_width(), shaft, out, v, n);
 }
 
 /* The same as shaft_meets of a flat polygon, whose unit normal is given. */
@@ -340,6 +371,21 @@ static inline int shaft_meets_flat(const struct shaft *shaft, const double (*v)[
            && (shaft_inside(shaft, planes, &large, normal, 0, inside)
                || shaft_inside(shaft, planes, &large, normal, shaft->grow, inside)
                || shaft_inside(shaft, planes, &large, normal, -shaft->grow, inside));
+}
+
+/* What shaft_meets says, as far as it needs no planes, which cost more to make than this: 1, 0, or
+ * -1: not known. What is pierced is not far. */
+static inline int shaft_meets_early(const struct shaft *shaft, const double (*v)[3], int n)
+{
+    double normal[3];
+    if (!shaft_normal(v, n, normal))
+        return 0;
+    if (shaft_bent(shaft, v, n, normal))
+        return -1;
+    const int side = shaft_side(shaft, v, n, normal);
+    if (side > 0)
+        return 0;
+    return side == 0 && shaft_pierced(shaft, v, n, normal) ? 1 : -1;
 }
 
 /* May a face with 3 or 4 corners stop a ray? 0 is precise. What of it may is put in *inside,

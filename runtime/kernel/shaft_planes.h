@@ -79,10 +79,11 @@ TOOL int shaft_planes_miss_body(const struct shaft *shaft, const double low[3],
     return 0;
 }
 
-/* Does one plane have all corners farther outside than `out`? */
+/* Does one plane have all corners farther outside than `out`? The axes' planes are not asked: that
+ * takes comparisons alone. */
 TOOL int shaft_planes_far_body(const struct shaft *shaft, double out, const double (*v)[3], int n)
 {
-    for (int i = 0; i < shaft->planes; i += LANES) {
+    for (int i = SHAFT_AXES; i < shaft->planes; i += LANES) {
         const double *x = shaft->normal[0] + i, *y = shaft->normal[1] + i,
                      *z = shaft->normal[2] + i, *offset = shaft->offset + i;
         int64_t all = 1, inside[LANES] = {0};

@@ -53,6 +53,7 @@ static inline void counted_host_make(struct counted_host *c, const struct host *
     c->host.elements = real->elements;
     c->host.occluded = counted_occluded;
     c->host.candidates = real->candidates ? counted_candidates : NULL;
+    c->host.exact = real->exact;
     c->host.corners = real->corners ? counted_corners : NULL;
     c->host.optical_depth = real->optical_depth ? counted_optical_depth : NULL;
     c->real = real;

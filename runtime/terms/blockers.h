@@ -14,6 +14,20 @@
 #include "discussion.h"
 #include "kernel/shaft.h"
 
+/* Does a face of an inherited list meet the shaft? Most are known to without its planes, which are
+ * made for the first that is not. */
+static inline int blockers_meets(struct shaft *shaft, const struct polygon *p)
+{
+    const double(*v)[3] = (const double(*)[3])p->v;
+    struct cut inside;
+    int meets = shaft_meets_early(shaft, v, p->n);
+    if (meets >= 0)
+        return meets;
+    if (shaft->planes == 0)
+        shaft_close(shaft);
+    return shaft_meets(shaft, v, p->n, &inside); /* does not ask again whether it is pierced */
+}
+
 OUTLINE void blockers_find(const struct element *r, const struct element *s,
                            const struct host *host, struct blockers *list)
 {
@@ -27,12 +41,15 @@ OUTLINE void blockers_find(const struct element *r, const struct element *s,
         return;
     list->count = 0;
     struct shaft shaft;
-    if (!shaft_open(&shaft, r, s, host)) {
+    if (!shaft_ends(&shaft, r, s, host)) {
         list->covered = 1;
         return;
     }
-    if (found < 0)
+    const int known = found < 0 && host->exact; /* that they meet the shaft */
+    if (found < 0) {
+        shaft_close(&shaft);
         found = host->candidates(host, &shaft, BLOCKERS_MAX, list->face);
+    }
     if (found == HOST_HIDDEN) {
         list->covered = 1;
         return;
@@ -47,7 +64,7 @@ OUTLINE void blockers_find(const struct element *r, const struct element *s,
         uint32_t face = list->face[i];
         struct polygon p;
         host->corners(host, face, &p);
-        if (!shaft_meets(&shaft, (const double(*)[3])p.v, p.n, NULL))
+        if (!known && !blockers_meets(&shaft, &p))
             continue;
         list->covered |= (unsigned char)shaft_covered(&shaft, (const double(*)[3])p.v, p.n);
         for (j = list->count++; j > 0 && list->face[j - 1] > face; j--)

@@ -212,6 +212,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->scale = 1 / power_of_two(size);
     rays->host.occluded = occluded;
     rays->host.candidates = candidates;
+    rays->host.exact = 1;
     rays->host.corners = corners;
     rays->host.optical_depth = optical_depth;
     rays->host.area = area;

@@ -4,14 +4,15 @@
  * edge are inserted there, so that no program shows cracks. Colours are the radiosity as a picture
  * would show it (exposed). In .ply each vertex has
  *     float x y z, uchar red green blue (sRGB), float radiosity_0 [radiosity_1 radiosity_2] (W/m2)
- * in binary, little endian; x y z are double where float would bend the mesh (far_away.h), whose
- * node in glTF is then moved, and .obj, which Assimp writes in single precision, is warned of.
- * glTF holds linear colours (COLOR_0) and an unlit material, so that
+ * in binary, little endian. glTF holds linear colours (COLOR_0) and an unlit material, so that
  * viewers show the radiosity and nothing else, with y up as glTF wants it; .obj holds sRGB colours
  * behind the coordinates of each vertex, as MeshLab and Blender read them. .gltf comes with a .bin
  * and .obj with a .mtl, .xdmf with a .h5 (export_xdmf.h). Read as scenes, .obj and glTF have the
  * materials of the scene solved: Kd and Ke of MTL, and in glTF, whose materials say how to show it,
  * in the materials' names (util/material_name.h).
+ *
+ * Where single precision would bend the mesh (far_away.h), x y z of .ply are double, the node of
+ * glTF moves coordinates about the mesh's middle to their place, and of .obj there is a warning.
  * SPDX-License-Identifier: MIT */
 #ifndef EXPORT_H
 #define EXPORT_H

@@ -60,9 +60,24 @@ static void place(struct element *face, const struct shaft *shaft, int kind, int
         move(face, side, -even());
 }
 
+/* Does one plane have all of a face outside, all planes asked one by one? */
+static int plainly_far(const struct shaft *shaft, const double (*v)[3], int n)
+{
+    int far = 0;
+    for (int p = 0; p < shaft->planes; p++) {
+        int all = 1;
+        for (int i = 0; i < n; i++)
+            all &= v[i][0] * shaft->normal[0][p] + v[i][1] * shaft->normal[1][p]
+                       + v[i][2] * shaft->normal[2][p]
+                   > shaft->offset[p] + 4 * shaft->reach;
+        far |= all;
+    }
+    return far;
+}
+
 START_TEST(test_pierced)
 {
-    int shafts = 0, met = 0, pierced = 0, touching = 0, bent = 0;
+    int shafts = 0, met = 0, pierced = 0, touching = 0, bent = 0, far = 0, early[3] = {0, 0, 0};
     struct host host;
     memset(&host, 0, sizeof host);
     host.ray_offset = 1e-5;
@@ -100,13 +115,30 @@ START_TEST(test_pierced)
         const int cut = shaft_cutting(&shaft, &large, &planes)
                         && shaft_inside(&shaft, planes, &large, normal, 0, &inside);
         ck_assert_msg(cut || !said, "face %d is pierced and yet cut away", i);
+        /* what is said without planes is what they say; `inside`: nobody asks what is pierced */
+        const int soon = shaft_meets_early(&shaft, v, n);
+        ck_assert(soon < 0 || soon == shaft_meets(&shaft, v, n, &inside));
+        early[soon + 1]++;
+        for (int k = 0; k < 3; k++) {
+            const double away = even();
+            for (int c = 0; c < n; c++)
+                face.vertex[c][k] += away;
+        }
+        ck_assert_int_eq(shaft_far(&shaft, v, n), plainly_far(&shaft, v, n));
+        far += shaft_far(&shaft, v, n);
         met += cut && kind == 0;
         pierced += said && kind == 0;
         touching += said && kind > 0;
     }
     printf("%d shafts: of %d faces met %d are pierced, %d touching ones, none of %d bent ones\n",
            shafts, met, pierced, touching, bent);
+    printf("%d far ones; without planes %d not known, %d not met, %d met\n", far, early[0],
+           early[1], early[2]);
     ck_assert_int_gt(shafts, 5000);
+    ck_assert_int_gt(far, shafts / 20);
+    ck_assert_int_lt(far, shafts);
+    for (int k = 0; k < 3; k++)
+        ck_assert_int_gt(early[k], 100);
     ck_assert_int_gt(pierced, met / 2);
     ck_assert_int_gt(touching, 1000);
     ck_assert_int_gt(bent, 500);

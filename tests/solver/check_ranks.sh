@@ -218,6 +218,17 @@ refused 1 "no_such.obj" solve no_such.obj
 refused 1 "cannot" solve "$cube" -o no/such/folder.ply
 check "something was written" [ -z "$(find . -name '*.ply*' -o -name 't.csv*')" ]
 
+# ---- a rank that waits for one that is held up sleeps
+used() { awk '{ sub(/.*[)] /, ""); print $12 + $13 }' "/proc/$1/stat"; } # PID: hundredths of a second, by user and system
+several 2 "$radiosity" solve "$scenes/td.obj" -q >said 2>&1 &
+run=$!
+rank_of solve 1 && held=$found && sleep .3 && kill -STOP "$held"
+rank_of solve 0 && waits=$found && sleep 5 && before=$(used "$waits") && sleep 2
+check "a rank that waits took ${before:-?} to $(used "$waits") hundredths of a second in 2 s" [ $(($(used "$waits") - before)) -lt 50 ]
+kill -CONT "$held"
+wait $run
+check "a run that was held up: status $?: $(head -n 3 said)" [ ! -s said ]
+
 # ---- a rank that is killed
 several 3 "$radiosity" solve "$scenes/td.obj" --scale .1 -q -o td.ply --json td.json >said 2>&1 &
 run=$!

@@ -91,21 +91,24 @@ static int read_vertices(struct leaves *m, struct reader *r, const struct proper
         return report_error(r->path, 0, "out of memory for the mesh");
     for (uint32_t i = 0; i < m->vertices; i++)
         for (int k = 0; k < properties; r->at += p[k++].bytes) {
-            float f;
-            double d;
+            float single;
+            double value;
             if (r->end - r->at < p[k].bytes)
                 return damaged(r);
-            if (p[k].band == -1 || (p[k].bytes != sizeof f && p[k].bytes != sizeof d))
+            if (p[k].band == -1)
                 continue;
-            memcpy(&f, r->at, sizeof f);
-            if (p[k].bytes == sizeof d)
-                memcpy(&d, r->at, sizeof d);
-            else
-                d = (double)f;
+            if (p[k].bytes == sizeof value) {
+                memcpy(&value, r->at, sizeof value);
+            } else if (p[k].bytes == sizeof single) {
+                memcpy(&single, r->at, sizeof single);
+                value = (double)single;
+            } else {
+                continue;
+            }
             if (p[k].band >= 0)
-                m->value[(size_t)i * m->bands + (size_t)p[k].band] = d;
+                m->value[(size_t)i * m->bands + (size_t)p[k].band] = value;
             else
-                m->position[3 * (size_t)i + (size_t)(-2 - p[k].band)] = d;
+                m->position[3 * (size_t)i + (size_t)(-2 - p[k].band)] = value;
         }
     return 0;
 }
