@@ -3,11 +3,11 @@
  * What stands between the two groups is found once; then the block is halved, the side of more
  * faces first. What may stand between two halves is of the whole's list, since shafts nest. Where
  * nothing does, or all is hidden, which the shaft tells as it does of two faces
- * (visibility/hidden.h), all pairs of the halves are known at once; a few pairs that are left, or a
- * single one, are integrated past what stands between them (exchange_sight.h). Half a group is the
- * rectangle around its faces, along the group's first side, and need not lie in the group's own
- * outline: so the ray that speaks for all is one between two of the faces, which lies in every
- * shaft. Invariant: as pair by pair, within the tolerance; hidden pairs exchange nothing.
+ * (visibility/hidden.h), all pairs of the halves are known at once; a pair that is left is
+ * integrated (exchange_sight.h). Half a group is the rectangle around its faces, along the group's
+ * first side, and need not lie in the group's own outline: so the ray that speaks for all is one
+ * between two of the faces, which lies in every shaft.
+ * Invariant: as pair by pair, within the tolerance; hidden pairs exchange nothing.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "engine/exchange_halves.h"
@@ -17,10 +17,6 @@
 #include "kernel/shaft.h"
 #include "visibility/candidates.h"
 #include "visibility/hidden.h"
-
-/* So many pairs share what stands between any of them; measured: of more, each meets too much that
- * stands between others. */
-enum { TOGETHER = 4 };
 
 /* A block at work. */
 struct halving {
@@ -140,29 +136,6 @@ static void put_known(const struct halving *h, const struct half *r, const struc
     }
 }
 
-/* A few pairs, past what stands between any of them. Returns 0 when that is too much. */
-static int fill_together(struct halving *h, const struct half *r, const struct half *s,
-                         const struct element *from, const struct element *to,
-                         const struct shaft *shaft, const struct sight_list *list)
-{
-    const struct exchange_tree *t = h->whole->tree;
-    const struct element *const first[2] = {
-        r->of->group ? exchange_tree_face(t, r->range.from) : r->of,
-        s->of->group ? exchange_tree_face(t, s->range.from) : s->of};
-    struct sight_group group;
-    if (!sight_together(&group, from, to, first, t, shaft, list, h->scratch))
-        return 0;
-    for (uint32_t i = r->range.from; i < r->range.to; i++)
-        for (uint32_t j = s->range.from; j < s->range.to; j++) {
-            double error;
-            *place_of(h, i, j) =
-                sight_one(&group, r->of->group ? exchange_tree_face(t, i) : r->of,
-                          s->of->group ? exchange_tree_face(t, j) : s->of, t, h->scratch, &error);
-            h->most = fmax(h->most, error);
-        }
-    return 1;
-}
-
 /* The halves' pairs; what may stand between is of `among`, or, where this is NULL, anything. */
 static void fill_halves(struct halving *h, const struct half *r, const struct half *s,
                         const struct sight_list *among, uint32_t opens)
@@ -192,9 +165,6 @@ static void fill_halves(struct halving *h, const struct half *r, const struct ha
                 put_known(h, r, s, stands);
                 return;
             }
-            if (!parts && (uint64_t)count_of(r) * count_of(s) <= TOGETHER
-                && fill_together(h, r, s, &from, &to, &shaft, &own))
-                return;
             among = &own;
         }
     }

@@ -162,10 +162,10 @@ static int place_between(struct looking *l)
     return l->by_bodies ? 0 : sight_between_place(b, l->tree, &l->sight);
 }
 
-/* What a point sees past what stands between: solids, if they alone do, by the rims
- * of their shadows. Else outlines save most where faces go on into each other;
- * faces by themselves, and bent ones, are cut out one by one. Many faces leave parts that each meet
- * few of them, and many edges part what is hidden, too. */
+/* What a point sees past what stands between: solids, if they alone do, by the rims of their
+ * shadows, unless rounding leaves open where these run. Else outlines save most where faces go on
+ * into each other; faces by themselves, and bent ones, are cut out one by one. Many faces leave
+ * parts that each meet few of them, and many edges part what is hidden, too. */
 static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
 {
     const struct sight_between *b = l->scratch->between;
@@ -480,38 +480,6 @@ static double sway(const struct element *e, const struct exchange_tree *t, const
     return e->radius / (least + e->radius);
 }
 
-/* The exchange area past what stands between; `plane`: an element in the plane of the other face,
- * whose coordinates are used. */
-static double look(struct looking *l, const struct element *plane, enum between stands,
-                   const uint32_t *list, int count, double least, double *error)
-{
-    const struct host *host = &l->tree->host;
-    const struct sight_between *between = l->scratch->between;
-    struct polygon part, seen;
-    const int all = clip_front(&part, l->from, l->to, host->flat) && stands == BETWEEN_SOME;
-    polygon_clip(&seen, (const double(*)[3])l->to->vertex, l->to->vertices, l->from->centre,
-                 l->from->normal);
-    if (part.n == 0 || seen.n == 0)
-        return 0;
-    sight_open(&l->sight, plane, &seen, host->ray_offset);
-    /* of bent faces one too many may hide what it does not stand before */
-    l->shared = l->shared
-                || (stands == BETWEEN_SOME && !between->bent && between->faces <= SIGHT_SHARED
-                    && place_between(l) == 0);
-    double sum = integrate(l, &part, all, list, count, least, error);
-    if (!(sum > SIGHT_NEARLY_CLEAR * l->clear))
-        return sum;
-    return fmin(sum, fmin(l->from->area * polygon_factor(l->from, l->to, 1), least));
-}
-
-/* Is the first one to be cut? */
-static int from_first(const struct element *r, const struct element *s,
-                      const struct exchange_tree *t, const uint32_t *list, int count)
-{
-    const double sway_r = sway(r, t, list, count), sway_s = sway(s, t, list, count);
-    return sway_r < sway_s || (!(sway_s < sway_r) && r->id < s->id);
-}
-
 double sight_pair(const struct element *r, const struct element *s, const struct exchange_tree *t,
                   const struct sight_list *among, struct sight_scratch *scratch, double *error)
 {
@@ -537,42 +505,23 @@ double sight_pair(const struct element *r, const struct element *s, const struct
         return 0;
     if (stands == BETWEEN_NOTHING)
         return fmin(r->area * polygon_factor(r, s, 1), least);
-    const int from_r = many ? r->radius > s->radius || (!(r->radius < s->radius) && r->id < s->id)
-                            : from_first(r, s, t, own, count);
+    double sway_r = many ? -r->radius : sway(r, t, own, count),
+           sway_s = many ? -s->radius : sway(s, t, own, count);
+    int from_r = sway_r < sway_s || (sway_r == sway_s && r->id < s->id);
     struct looking l = {
         .tree = t, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
-    return look(&l, l.to, stands, own, many ? MANY : count, least, error);
-}
-
-int sight_together(struct sight_group *g, const struct element *r, const struct element *s,
-                   const struct element *const face[2], const struct exchange_tree *t,
-                   const struct shaft *shaft, const struct sight_list *list,
-                   struct sight_scratch *scratch)
-{
-    struct looking l = {.tree = t, .scratch = scratch};
-    int singles = 0;
-    for (int i = 0; i < list->count; i++)
-        singles += t->bodies.of[list->face[i]] == 0;
-    if (singles == 0) /* past solids a pair by itself costs no more */
+    struct polygon part, seen;
+    const int all = clip_front(&part, l.from, l.to, host->flat) && stands == BETWEEN_SOME;
+    polygon_clip(&seen, (const double(*)[3])l.to->vertex, l.to->vertices, l.from->centre,
+                 l.from->normal);
+    if (part.n == 0 || seen.n == 0)
         return 0;
-    if (sight_between_find(scratch->between, t, shaft, list->face, list->count, 1) != BETWEEN_SOME
-        || scratch->between->bent || scratch->between->faces > SIGHT_SHARED)
-        return 0;
-    g->from_r = from_first(face[0], face[1], t, list->face, list->count);
-    g->plane = g->from_r ? s : r;
-    sight_open(&l.sight, g->plane, &(struct polygon){.n = 0}, t->host.ray_offset);
-    return place_between(&l) == 0 && !l.by_bodies;
-}
-
-double sight_one(const struct sight_group *g, const struct element *r, const struct element *s,
-                 const struct exchange_tree *t, struct sight_scratch *scratch, double *error)
-{
-    struct looking l = {.tree = t,
-                        .from = g->from_r ? r : s,
-                        .to = g->from_r ? s : r,
-                        .scratch = scratch,
-                        .shared = 1};
-    *error = 0;
-    return look(&l, g->plane, BETWEEN_SOME, scratch->between->list, scratch->between->faces,
-                fmin(r->area, s->area), error);
+    sight_open(&l.sight, l.to, &seen, host->ray_offset);
+    /* of bent faces one too many may hide what it does not stand before */
+    l.shared = stands == BETWEEN_SOME && !scratch->between->bent
+               && scratch->between->faces <= SIGHT_SHARED && place_between(&l) == 0;
+    double sum = integrate(&l, &part, all, own, many ? MANY : count, least, error);
+    if (!(sum > SIGHT_NEARLY_CLEAR * l.clear))
+        return sum;
+    return fmin(sum, fmin(r->area * polygon_factor(r, s, 1), least));
 }

@@ -48,20 +48,4 @@ double sight_pair(const struct element *r, const struct element *s,
                   const struct exchange_tree *tree, const struct sight_list *among,
                   struct sight_scratch *scratch, double *error);
 
-/* Pairs of faces in two planes: what stands between any of them is put down once, in `scratch`. */
-struct sight_group {
-    const struct element *plane; /* around the faces that are looked at */
-    int from_r;                  /* 1: the first one's faces are cut */
-};
-
-/* r and s: around the faces, face[]: one of each. Returns 0 when what stands between is nothing,
- * all, bent or many, or solids. */
-int sight_together(struct sight_group *group, const struct element *r, const struct element *s,
-                   const struct element *const face[2], const struct exchange_tree *tree,
-                   const struct shaft *shaft, const struct sight_list *list,
-                   struct sight_scratch *scratch);
-/* As sight_pair, of a pair of them. */
-double sight_one(const struct sight_group *group, const struct element *r, const struct element *s,
-                 const struct exchange_tree *tree, struct sight_scratch *scratch, double *error);
-
 #endif
