@@ -1,16 +1,21 @@
 /* sight_bodies.c - what a point sees of a convex polygon past convex solids.
  *
- * Each hides one convex polygon of the plane. Nothing is cut out: Lambert's sum goes around what is
- * seen, and that is the rim of the polygon, as far as it lies outside of all shadows, and the rims
- * of shadows, the other way round, as far as they lie in the polygon and outside of the others. How
- * far that is, is an interval of an edge for each shadow. Of a shadow's edges, those that the
- * polygon does not lie on both sides of need not be asked: it is beside one, or within. Shadows
- * that share an edge, as of boxes that stand in a row, are parted by growing each a little more
- * than the one before, by far less than counts and more than rounding moves them: of two edges in
- * one place one is inside of the other's shadow, or both are.
- * Invariant: as sight_pieces.c, but for that.
- * [the rim of a union of convex polygons, edge by edge; derived here]
+ * Each hides one convex polygon of the plane: what of the polygon the planes of the point and its
+ * outline's edges leave. These shadows are made edge by edge, so each is closed whatever rounding
+ * does to a plane. Their union is not cut out: Lambert's sum goes around what is seen, and that is
+ * the rim of the polygon, as far as it is no shadow's, and the rims of shadows, the other way
+ * round, as far as they lie in the polygon and outside of the others. How far that is, is an
+ * interval of an edge for each shadow. Shadows that share an edge, as of boxes that stand in a row,
+ * are parted by growing each more than the one before, by far less than counts and by more than
+ * rounding moves their lines: of two edges in one place one is inside of the other's shadow, or
+ * both are. What rounding may decide is not decided here: where a point is in the plane of a face,
+ * within a solid that the plane cuts, or an edge too short for its distance, and where what was
+ * gone around is not closed, the point is not told, and its shadows are to be cut out
+ * (sight_pieces.c). Invariant: as sight_pieces.c, but for how far shadows grow. [the rim of a union
+ * of convex polygons, edge by edge; Sutherland & Hodgman 1974 for one of them; the rest derived
+ * here]
  * SPDX-License-Identifier: MIT */
+#include <string.h>
 #include "engine/sight_bodies.h"
 
 /* ---- corners, planes and edges, once for many points */
@@ -48,6 +53,10 @@ static int add_edge(struct sight_bodies *b, int from, int to, int left, int righ
 {
     if (from < 0 || to < 0 || left < 0 || right < 0 || b->edges == SIGHT_BODY_EDGES)
         return -1;
+    for (int k = 0; k < 3; k++) {
+        b->end[0][k][b->edges] = b->corner[k][from];
+        b->end[1][k][b->edges] = b->corner[k][to];
+    }
     b->edge[b->edges++] =
         (struct sight_body_edge){(int16_t)from, (int16_t)to, (int16_t)left, (int16_t)right};
     return 0;
@@ -105,6 +114,7 @@ static int add_solid(struct sight_bodies *b, const struct exchange_tree *t, cons
             < 0)
             return -1;
     }
+    b->body[b->count].foot = !(low > 0);
     const int down = low > 0 ? 0 : add_plane(b, DOWN);
     for (int i = 0; i < body->faces && !(low > 0); i++) {
         int corner[4], n = 0;
@@ -135,7 +145,7 @@ static void add_body(struct sight_bodies *b)
         b->corners = body->corner;
         b->planes = body->plane;
     }
-    *body = (struct sight_body){b->corners, b->planes, b->edges};
+    *body = (struct sight_body){b->corners, b->planes, b->edges, 0};
 }
 
 int sight_bodies_place(struct sight_bodies *b, const struct exchange_tree *t, const uint32_t *list,
@@ -161,39 +171,61 @@ int sight_bodies_place(struct sight_bodies *b, const struct exchange_tree *t, co
         b->corner[0][i] = b->corner[1][i] = b->corner[2][i] = 0;
     for (int i = b->planes; i % LANES_MOST; i++)
         b->plane[0][i] = b->plane[1][i] = b->plane[2][i] = b->plane[3][i] = 0;
+    for (int i = b->edges; i < b->edges + LANES_MOST; i++)
+        for (int k = 0; k < 3; k++)
+            b->end[0][k][i] = b->end[1][k][i] = 0;
     return 1;
 }
 
 /* ---- shadows, point by point */
 
-/* A shadow's edge through the polygon, from p to q as far as it lies in it; within the shadow, a u
- * + b v <= c. over[]: how far the polygon's corners are outside. */
+/* The corners that a shadow may have in the polygon; what has more is cut out face by face. */
+enum { SHADOW_CORNERS = 64 };
+
+/* A line: outside of the shadow where a u + b v > c. a, b: of length one. */
 struct body_line {
-    double a, b, c, p[2], q[2], over[POLYGON_MAX];
+    double a, b, c;
+};
+
+/* What of the polygon a body hides: convex, counter-clockwise. by[i]: whose the edge is that
+ * begins at corner i: the polygon's side, or POLYGON_MAX and the place of a line. */
+struct body_shadow {
+    int n, by[SHADOW_CORNERS];
+    double p[SHADOW_CORNERS][2];
 };
 
 /* A point's shadows that have an edge through the polygon. */
 struct casting {
-    double from[3], most;               /* the point; how high what casts shadows may be */
-    double side[POLYGON_MAX][4];        /* planes from the point through the polygon's sides */
-    int64_t out[SIGHT_BODY_CORNERS];    /* of corners: bits of the planes they are outside of */
-    double at[2][SIGHT_BODY_CORNERS];   /* shadows, of those between */
-    double height[SIGHT_BODY_PLANES];   /* of the point over planes */
-    int count, first[SIGHT_BODIES + 1]; /* where their lines begin, and the last one's end */
-    struct body_line line[SIGHT_BODY_EDGES]; /* of shadows, one after the other */
-    double sum[2];                           /* of the edges that are gone around */
+    double from[3], most;             /* the point; how high what casts shadows may be */
+    double own, per, away;            /* how large the polygon is, 1 / own; how far */
+    double size, grow;                /* what is small against: AWAY; GROWS of it */
+    int sides;                        /* of the polygon */
+    double corner[2][POLYGON_MAX];    /* its */
+    double side[POLYGON_MAX][4];      /* planes from the point through its sides */
+    int64_t out[SIGHT_BODY_CORNERS];  /* of corners: bits of the planes they are outside of */
+    double height[SIGHT_BODY_PLANES]; /* of the point over planes */
+    /* of edges: the line that the plane of the point and the edge cuts out of the polygon's, a u +
+     * b v - c above on the edge's right; what rounding moves that by; bits of the polygon's corners
+     * that are for sure below and above */
+    double line[4][SIGHT_BODY_EDGES + LANES_MOST];
+    int64_t under[SIGHT_BODY_EDGES + LANES_MOST], over[SIGHT_BODY_EDGES + LANES_MOST];
+    int count, first[SIGHT_BODIES + 1]; /* shadows; where their lines begin, and the last's end */
+    struct body_shadow shadow[SIGHT_BODIES];
+    struct body_line cut[SIGHT_BODY_EDGES];
+    double open; /* what is counted where edges end, less where they begin */
 };
 
-enum { OUT_ABOVE = 1 << POLYGON_MAX };
+/* Rounding turns the plane of a point and an edge by so much over the sine of the angle that the
+ * edge is seen under; a few units in the last place, chosen. */
+static const double ROUNDS = 1e-15;
 
-TOOL void casting_body(struct casting *c, const struct sight_bodies *b)
+TOOL void cast_corners(struct casting *c, const struct sight_bodies *b)
 {
-    const double x = c->from[0], y = c->from[1], z = c->from[2], most = c->most;
-    const int corners = b->corners, planes = b->planes;
-    double at[2][LANES]; /* its own: for all that compilers know, c is where b is */
+    const double most = c->most;
+    const int corners = b->corners;
     for (int i = 0; i < corners; i += LANES) {
         const double *u = b->corner[0] + i, *v = b->corner[1] + i, *h = b->corner[2] + i;
-        int64_t out[LANES];
+        int64_t out[LANES]; /* its own: for all that compilers know, c is where b is */
         for (int k = 0; k < LANES; k++)
             out[k] = (int64_t)(h[k] > most) << POLYGON_MAX;
         for (int e = 0; e < POLYGON_MAX; e++) {
@@ -202,25 +234,66 @@ TOOL void casting_body(struct casting *c, const struct sight_bodies *b)
             for (int k = 0; k < LANES; k++)
                 out[k] |= (int64_t)(p0 * u[k] + p1 * v[k] + p2 * h[k] > p3) << e;
         }
-        for (int k = 0; k < LANES; k++) {
-            const double t = z / (z - h[k]);
-            at[0][k] = x + t * (u[k] - x);
-            at[1][k] = y + t * (v[k] - y);
-        }
-        for (int k = 0; k < LANES; k++) {
+        for (int k = 0; k < LANES; k++)
             c->out[i + k] = out[k];
-            c->at[0][i + k] = at[0][k];
-            c->at[1][i + k] = at[1][k];
-        }
     }
+}
+
+TOOL void cast_planes(struct casting *c, const struct sight_bodies *b)
+{
+    const double x = c->from[0], y = c->from[1], z = c->from[2];
+    const int planes = b->planes;
     for (int i = 0; i < planes; i += LANES) {
         const double *p0 = b->plane[0] + i, *p1 = b->plane[1] + i, *p2 = b->plane[2] + i,
                      *p3 = b->plane[3] + i;
+        double height[LANES];
         for (int k = 0; k < LANES; k++)
-            at[0][k] = p0[k] * x + p1[k] * y + p2[k] * z - p3[k];
+            height[k] = p0[k] * x + p1[k] * y + p2[k] * z - p3[k];
         for (int k = 0; k < LANES; k++)
-            c->height[i + k] = at[0][k];
+            c->height[i + k] = height[k];
     }
+}
+
+TOOL void lines_body(struct casting *c, const struct sight_bodies *b, int first, int edges)
+{
+    const double x = c->from[0], y = c->from[1], z = c->from[2], rounds = ROUNDS * c->away;
+    const int sides = c->sides;
+    for (int i = first; i < edges; i += LANES) {
+        const double *p0 = b->end[0][0] + i, *p1 = b->end[0][1] + i, *p2 = b->end[0][2] + i,
+                     *q0 = b->end[1][0] + i, *q1 = b->end[1][1] + i, *q2 = b->end[1][2] + i;
+        double n0[LANES], n1[LANES], at[LANES], moved[LANES];
+        int64_t under[LANES] = {0}, over[LANES] = {0};
+        for (int k = 0; k < LANES; k++) {
+            const double g0 = p0[k] - x, g1 = p1[k] - y, g2 = p2[k] - z, h0 = q0[k] - x,
+                         h1 = q1[k] - y, h2 = q2[k] - z;
+            n0[k] = g1 * h2 - g2 * h1;
+            n1[k] = g2 * h0 - g0 * h2;
+            at[k] = n0[k] * x + n1[k] * y + (g0 * h1 - g1 * h0) * z;
+            moved[k] = rounds * sqrt((g0 * g0 + g1 * g1 + g2 * g2) * (h0 * h0 + h1 * h1 + h2 * h2));
+        }
+        for (int e = 0; e < sides; e++) {
+            const double u = c->corner[0][e], v = c->corner[1][e];
+            for (int k = 0; k < LANES; k++) {
+                const double above = n0[k] * u + n1[k] * v - at[k];
+                under[k] |= (int64_t)(above < -moved[k]) << e;
+                over[k] |= (int64_t)(above > moved[k]) << e;
+            }
+        }
+        for (int k = 0; k < LANES; k++) {
+            c->line[0][i + k] = n0[k];
+            c->line[1][i + k] = n1[k];
+            c->line[2][i + k] = at[k];
+            c->line[3][i + k] = moved[k];
+            c->under[i + k] = under[k];
+            c->over[i + k] = over[k];
+        }
+    }
+}
+
+TOOL void casting_body(struct casting *c, const struct sight_bodies *b)
+{
+    cast_corners(c, b);
+    cast_planes(c, b);
 }
 
 #if LANES_CHOSEN
@@ -232,174 +305,207 @@ LANES_AVX2 void casting_4(struct casting *c, const struct sight_bodies *b)
 {
     casting_body(c, b);
 }
+LANES_AVX512 void lines_8(struct casting *c, const struct sight_bodies *b, int first, int edges)
+{
+    lines_body(c, b, first, edges);
+}
+LANES_AVX2 void lines_4(struct casting *c, const struct sight_bodies *b, int first, int edges)
+{
+    lines_body(c, b, first, edges);
+}
 #endif
+
+/* How much more than the one before each shadow grows, of how large the polygon is and a hundredth
+ * of how far away; chosen. */
+static const double GROWS = 1e-10, AWAY = 1e-2;
+
+/* Rounding moves a line by less than so much of what shadows grow, or the point is not told: so two
+ * in one place are told apart. Chosen. */
+static const double SURE = 0.1;
+
+/* A point so near to a face's plane, of that size, may be on either side of it. */
+static const double NEARLY = 1e-9;
+
+/* Sides of the polygon shorter than this, of its size, have no direction to rely on: nothing is
+ * beside them. Where its corner is cut off they are as short as rounding. */
+static const double SHORT = 1e-6;
+
+/* A rim that does not come back to where it began within so much of the polygon's size has lost an
+ * edge, or has one too many. */
+static const double OPEN = 1e-9;
 
 static void start_casting(struct casting *c, const struct sight_bodies *b,
                           const struct outline_cell *cell)
 {
     const double z = c->from[2];
+    double far = 0;
+    c->sides = cell->n;
     c->most = z * (1 - OUTLINE_BELOW_EYE);
+    c->own = 0;
+    for (int i = 0; i < cell->n; i++)
+        for (int k = 0; k < 2; k++) {
+            const double along = fabs(cell->p[i][k] - cell->p[0][k]);
+            c->own = along > c->own ? along : c->own;
+            c->corner[k][i] = cell->p[i][k];
+        }
     for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
         const double g[3] = {cell->p[j][0] - c->from[0], cell->p[j][1] - c->from[1], -z},
-                     h[3] = {cell->p[i][0] - c->from[0], cell->p[i][1] - c->from[1], -z};
+                     h[3] = {cell->p[i][0] - c->from[0], cell->p[i][1] - c->from[1], -z},
+                     side[2] = {h[0] - g[0], h[1] - g[1]}, square = dot3(h, h);
+        far = square > far ? square : far;
         cross3(c->side[i], g, h);
         c->side[i][3] = dot3(c->side[i], c->from);
+        if (!(side[0] * side[0] + side[1] * side[1] > SHORT * SHORT * c->own * c->own))
+            c->side[i][0] = c->side[i][1] = c->side[i][2] = c->side[i][3] = 0;
     }
     for (int i = cell->n; i < POLYGON_MAX; i++)
         c->side[i][0] = c->side[i][1] = c->side[i][2] = c->side[i][3] = 0;
+    c->per = 1 / c->own;
+    c->away = sqrt(far);
+    c->size = c->own + AWAY * c->away;
+    c->grow = GROWS * c->size;
     LANES_RUN(lanes_width(), casting_8, casting_4, casting_body, (c, b));
     c->count = c->first[0] = 0;
-    c->sum[0] = c->sum[1] = 0;
+    c->open = 0;
 }
 
-/* The end at corner p of an edge to q, or of what of it is between the plane and `most`. */
-static void end_of(const struct casting *c, const struct sight_bodies *b, int p, int q,
-                   double end[2])
+/* What of a shadow is not outside of a line. over[]: how far its corners are. Returns 0 when that
+ * is nothing, -1 when it would have too many corners. */
+static int cut_off(struct body_shadow *left, const struct body_shadow *s, const double *over,
+                   int by)
 {
-    const double z = b->corner[2][p], limit = z < 0 ? 0 : c->most;
-    if (z >= 0 && z <= c->most) {
-        end[0] = c->at[0][p];
-        end[1] = c->at[1][p];
-        return;
-    }
-    const double at = (limit - z) / (b->corner[2][q] - z), t = c->from[2] / (c->from[2] - limit);
-    for (int k = 0; k < 2; k++) {
-        const double x = b->corner[k][p] + at * (b->corner[k][q] - b->corner[k][p]);
-        end[k] = c->from[k] + t * (x - c->from[k]);
-    }
-}
-
-/* The part of a line that lies in the cell and between the ends of the edge, `to` the second one.
- * Returns 0 when none does. */
-static int within(struct body_line *line, const struct outline_cell *cell, const double from[2],
-                  double square)
-{
-    double at[2] = {0, 0}, x[2][2];
-    int found = 0;
-    for (int i = 0, j = cell->n - 1; i < cell->n && found < 2; j = i++) {
-        const double g = line->over[j], h = line->over[i];
-        if ((g > 0) == (h > 0))
+    int n = 0;
+    for (int i = 0; i < s->n; i++) {
+        const int next = i + 1 < s->n ? i + 1 : 0, in = !(over[i] > 0);
+        if (n + 2 > SHADOW_CORNERS)
+            return -1;
+        if (in) {
+            left->p[n][0] = s->p[i][0];
+            left->p[n][1] = s->p[i][1];
+            left->by[n++] = s->by[i];
+        }
+        if (in == !(over[next] > 0))
             continue;
-        const double t = g / (g - h);
+        const double t = over[i] / (over[i] - over[next]);
         for (int k = 0; k < 2; k++)
-            x[found][k] = cell->p[j][k] + t * (cell->p[i][k] - cell->p[j][k]);
-        at[found] = (x[found][1] - from[1]) * line->a - (x[found][0] - from[0]) * line->b;
-        found++;
+            left->p[n][k] = s->p[i][k] + t * (s->p[next][k] - s->p[i][k]);
+        left->by[n++] = in ? by : s->by[i];
     }
-    if (found < 2)
-        return 0;
-    const int first = at[1] < at[0];
-    const double least = at[first], most = at[!first], low = least > 0 ? least : 0,
-                 high = most < square ? most : square;
-    if (!(low < high))
-        return 0;
-    const double each = 1 / (most - least);
-    for (int k = 0; k < 2; k++) {
-        const double along = (x[!first][k] - x[first][k]) * each;
-        line->p[k] = low > least ? x[first][k] + (low - least) * along : x[first][k];
-        line->q[k] = high < most ? x[first][k] + (high - least) * along : x[!first][k];
-    }
-    return 1;
+    left->n = n;
+    return n > 0;
 }
 
-/* Edges' shadows shorter than this, of the size that counts, have no direction to rely on. */
-static const double SHORT = 1e-9;
-
-/* A point so near to a face's plane, of that size, may be on either side of it. */
-static const double NEARLY = 1e-6;
-
-enum sides { SIDES_NONE, SIDES_IN, SIDES_OUT, SIDES_BOTH };
-
-/* An edge's shadow, from p to q, with the body on its left. Returns where the cell's corners are;
- * none: it is too short. */
-static enum sides cast_edge(const struct casting *c, const struct sight_bodies *b, int p, int q,
-                            const struct outline_cell *cell, double size, struct body_line *line,
-                            double from[2], double *square)
+/* How far a shadow's corners are outside of a line. Returns whether any is. */
+static int lies_over(const struct body_shadow *s, const struct body_line *line, double *over)
 {
-    double to[2];
-    int sides = 0;
-    end_of(c, b, p, q, from);
-    end_of(c, b, q, p, to);
-    line->a = to[1] - from[1];
-    line->b = from[0] - to[0];
-    line->c = line->a * from[0] + line->b * from[1];
-    *square = line->a * line->a + line->b * line->b;
-    if (!(*square > SHORT * SHORT * size * size))
-        return SIDES_NONE;
-    for (int i = 0; i < cell->n; i++) {
-        const double h = line->a * cell->p[i][0] + line->b * cell->p[i][1] - line->c;
-        line->over[i] = h;
-        sides |= (h > 0 ? SIDES_OUT : 0) | (h < 0 ? SIDES_IN : 0);
+    int any = 0;
+    for (int i = 0; i < s->n; i++) {
+        over[i] = line->a * s->p[i][0] + line->b * s->p[i][1] - line->c;
+        any |= over[i] > 0;
     }
-    return (enum sides)sides;
+    return any;
 }
 
-/* The corner at which the outline's edge begins, the body on its left; -1: it is no outline. */
-static int begins(const struct casting *c, const struct sight_body_edge *e)
+/* What of the polygon a body hides. */
+enum rest { REST_UNTOLD, REST_NONE, REST_ALL, REST_SOME };
+
+/* The line of an edge of the outline; `turned` when it has the body on its right. Returns 0 when
+ * rounding may move it as far as shadows grow. */
+static int line_of(const struct casting *c, int edge, int turned, double grow,
+                   struct body_line *line)
 {
-    const int left = c->height[e->left] > 0, right = c->height[e->right] > 0;
-    return left == right ? -1 : left ? e->from : e->to;
+    const double a = c->line[0][edge], b = c->line[1][edge], size = sqrt(a * a + b * b),
+                 to = (turned ? -1 : 1) / size;
+    *line = (struct body_line){to * a, to * b, to * c->line[2][edge] + grow};
+    return c->line[3][edge] < SURE * c->grow * size;
 }
 
-/* Does the shadow, no edge of which runs through the cell, cover it? */
-static int covers(const struct casting *c, const struct sight_bodies *b,
-                  const struct sight_body *body, const struct outline_cell *cell, double size)
+/* The edges of a body's outline that the polygon lies on both sides of; negative, less 1, with the
+ * body on their right. What has no outline, though it has a front, has a plane that rounding
+ * turned. */
+static enum rest find_outline(const struct casting *c, const struct sight_bodies *b,
+                              const struct sight_body *body, int *found, int *count)
 {
-    int outlines = 0, front = 0;
+    const int64_t all = (1 << c->sides) - 1;
+    int outlines = 0;
+    *count = 0;
     for (int i = body->edge; i < body[1].edge; i++) {
-        const struct sight_body_edge *e = &b->edge[i];
-        const int p = begins(c, e), q = p == e->from ? e->to : e->from;
-        struct body_line line;
-        double from[2], square, h = 0;
-        front |= p >= 0 || c->height[e->left] > 0;
-        if (p < 0 || (c->out[p] & c->out[q] & OUT_ABOVE))
+        const int left = c->height[b->edge[i].left] > 0, right = c->height[b->edge[i].right] > 0;
+        if (left == right)
             continue;
-        const enum sides sides = cast_edge(c, b, p, q, cell, size, &line, from, &square);
-        for (int k = 0; k < cell->n && sides == SIDES_BOTH; k++)
-            h += line.over[k];
-        if (sides == SIDES_OUT || h > 0)
-            return 0;
+        const int64_t in = left ? c->under[i] : c->over[i], out = left ? c->over[i] : c->under[i];
+        if (out == all)
+            return REST_NONE;
+        if (in != all)
+            found[(*count)++] = left ? i : -i - 1;
         outlines++;
     }
-    return outlines || !front; /* without a front: the point is within */
+    return outlines < 3 ? REST_UNTOLD : *count > 0 ? REST_SOME : REST_ALL;
 }
 
-/* A body's shadow, its lines from the last one's end on. Of a convex shadow that has an edge in the
- * cell no other edge tells what of the cell it hides. Returns 1 when it hides all. */
-static int cast_body(struct casting *c, const struct sight_bodies *b, const struct sight_body *body,
-                     const struct outline_cell *cell, double size, double grow)
+/* Cuts the last shadow, which is all of the polygon so far, along the body's outline; it counts
+ * when some is left. */
+static enum rest cut_outline(struct casting *c, const struct sight_bodies *b,
+                             const struct sight_body *body, double grow)
 {
-    int lines = c->first[c->count];
+    struct body_shadow *const keep = &c->shadow[c->count], other, *now = keep, *next = &other;
+    int found[SIGHT_BODY_EDGES], count, lines = c->first[c->count];
+    double over[SHADOW_CORNERS];
+    const enum rest rest = find_outline(c, b, body, found, &count);
+    if (rest != REST_SOME)
+        return rest;
+    for (int i = 0; i < count; i++) {
+        struct body_line *line = &c->cut[lines];
+        const int turned = found[i] < 0, edge = turned ? -found[i] - 1 : found[i];
+        if (!line_of(c, edge, turned, grow, line))
+            return REST_UNTOLD;
+        if (!lies_over(now, line, over))
+            continue;
+        const int left = cut_off(next, now, over, POLYGON_MAX + lines++);
+        if (left <= 0)
+            return left < 0 ? REST_UNTOLD : REST_NONE;
+        now = next;
+        next = now == keep ? &other : keep;
+    }
+    if (lines == c->first[c->count])
+        return REST_ALL;
+    if (now != keep) {
+        keep->n = now->n;
+        memcpy(keep->p, now->p, (size_t)now->n * sizeof *now->p);
+        memcpy(keep->by, now->by, (size_t)now->n * sizeof *now->by);
+    }
+    c->first[++c->count] = lines;
+    return REST_SOME;
+}
+
+/* A body's shadow: what of the polygon all edges of its outline leave. A point within a body sees
+ * as much of the polygon as its plane cuts off that. */
+static enum rest cast_body(struct casting *c, const struct sight_bodies *b,
+                           const struct sight_body *body, const struct outline_cell *cell,
+                           double grow)
+{
+    struct body_shadow *s = &c->shadow[c->count];
     int64_t out = ~(int64_t)0;
+    int front = 0;
     for (int i = body->corner; i < body[1].corner && out; i++)
         out &= c->out[i];
     if (out) /* all of it is beside a side, or above */
-        return 0;
-    for (int i = body->plane; i < body[1].plane; i++)
-        if (fabs(c->height[i]) < NEARLY * size)
-            return -1;
-    for (int i = body->edge; i < body[1].edge; i++) {
-        const struct sight_body_edge *e = &b->edge[i];
-        const int p = begins(c, e), q = p == e->from ? e->to : e->from;
-        if (p < 0 || (c->out[p] & c->out[q]))
-            continue;
-        struct body_line *line = &c->line[lines];
-        double from[2], square;
-        const enum sides sides = cast_edge(c, b, p, q, cell, size, line, from, &square);
-        if (sides == SIDES_OUT)
-            return 0;
-        if (sides != SIDES_BOTH)
-            continue;
-        const double more = grow * sqrt(square);
-        line->c += more;
-        for (int k = 0; k < cell->n; k++)
-            line->over[k] -= more;
-        lines += within(line, cell, from, square);
+        return REST_NONE;
+    for (int i = body->plane; i < body[1].plane; i++) {
+        if (fabs(c->height[i]) < NEARLY * c->size)
+            return REST_UNTOLD;
+        front |= c->height[i] > 0;
     }
-    if (lines == c->first[c->count])
-        return covers(c, b, body, cell, size);
-    c->first[++c->count] = lines;
-    return 0;
+    if (!front)
+        return body->foot ? REST_UNTOLD : REST_ALL;
+    LANES_RUN(lanes_width(), lines_8, lines_4, lines_body, (c, b, body->edge, body[1].edge));
+    s->n = cell->n;
+    for (int i = 0; i < cell->n; i++) {
+        s->p[i][0] = cell->p[i][0];
+        s->p[i][1] = cell->p[i][1];
+        s->by[i] = i;
+    }
+    return cut_outline(c, b, body, grow);
 }
 
 /* What of an edge lies outside of shadows: intervals of it that do not, in their order. */
@@ -434,6 +540,16 @@ static void add_hidden(struct hidden_parts *parts, double low, double high)
     parts->count++;
 }
 
+/* Counts a corner of the rim. What is counted where edges begin and where they end is the same,
+ * when they go around, whatever it is. If it were the place alone, two edges that are wrong could
+ * make up for each other, being as long; of this, which is curved and along no axis of theirs, only
+ * by chance. */
+static inline double count_corner(const struct casting *c, const double p[2])
+{
+    const double u = (p[0] - c->corner[0][0]) * c->per, v = (p[1] - c->corner[1][0]) * c->per;
+    return u * (1 + u * (0.61 + v)) + v * (0.43 + v * (0.74 + u));
+}
+
 /* Adds what is left of the edge from p to q; turned: from q to p. */
 static void add_rest(struct sight_eye *eye, struct casting *c, const double p[2], const double q[2],
                      const struct hidden_parts *parts, int turned)
@@ -448,40 +564,53 @@ static void add_rest(struct sight_eye *eye, struct casting *c, const double p[2]
                 b[k] = end < 1 ? p[k] + end * (q[k] - p[k]) : q[k];
             }
             sight_eye_edge(eye, turned ? b : a, turned ? a : b);
-            for (int k = 0; k < 2; k++)
-                c->sum[k] += turned ? a[k] - b[k] : b[k] - a[k];
+            const double count = count_corner(c, b) - count_corner(c, a);
+            c->open += turned ? -count : count;
         }
         if (i < parts->count && parts->high[i] > last)
             last = parts->high[i];
     }
 }
 
-/* What is seen of the polygon's own edge, from corner j to i. */
-static void add_own(struct sight_eye *eye, struct casting *c, const struct outline_cell *cell,
-                    int j, int i)
+/* Where on the edge from p to q a point of it is. */
+static double place_on(const double p[2], const double q[2], const double x[2])
 {
-    struct hidden_parts parts;
-    parts.count = 0;
-    for (int s = 0; s < c->count; s++) {
-        double low = 0, high = 1;
-        for (int k = c->first[s]; k < c->first[s + 1] && low < high; k++)
-            narrow(c->line[k].over[j], c->line[k].over[i], &low, &high);
-        add_hidden(&parts, low, high);
-    }
-    add_rest(eye, c, cell->p[j], cell->p[i], &parts, 0);
+    const double u = q[0] - p[0], v = q[1] - p[1];
+    return ((x[0] - p[0]) * u + (x[1] - p[1]) * v) / (u * u + v * v);
 }
 
-/* What is seen beside the edge of shadow `own`. */
-static void add_shadow(struct sight_eye *eye, struct casting *c, int own,
-                       const struct body_line *line)
+/* What is seen of the polygon's own side i. */
+static void add_own(struct sight_eye *eye, struct casting *c, const struct outline_cell *cell,
+                    int i)
+{
+    struct hidden_parts parts;
+    const double *p = cell->p[i], *q = cell->p[i + 1 < cell->n ? i + 1 : 0];
+    parts.count = 0;
+    for (int s = 0; s < c->count; s++) {
+        const struct body_shadow *shadow = &c->shadow[s];
+        double low = 1, high = 0;
+        for (int k = 0; k < shadow->n; k++)
+            if (shadow->by[k] == i) {
+                const double t0 = place_on(p, q, shadow->p[k]),
+                             t1 = place_on(p, q, shadow->p[k + 1 < shadow->n ? k + 1 : 0]);
+                low = t0 < low ? t0 : low;
+                high = t1 > high ? t1 : high;
+            }
+        add_hidden(&parts, low, high);
+    }
+    add_rest(eye, c, p, q, &parts, 0);
+}
+
+/* What is seen beside an edge from p to q of shadow `own`. */
+static void add_shadow(struct sight_eye *eye, struct casting *c, int own, const double p[2],
+                       const double q[2])
 {
     struct hidden_parts parts;
     parts.count = 0; /* no more of it is read */
-    const double *p = line->p, *q = line->q;
     for (int s = 0; s < c->count; s++) {
         double low = 0, high = s == own ? 0 : 1;
         for (int k = c->first[s]; k < c->first[s + 1] && low < high; k++) {
-            const struct body_line *other = &c->line[k];
+            const struct body_line *other = &c->cut[k];
             narrow(other->a * p[0] + other->b * p[1] - other->c,
                    other->a * q[0] + other->b * q[1] - other->c, &low, &high);
         }
@@ -490,20 +619,13 @@ static void add_shadow(struct sight_eye *eye, struct casting *c, int own,
     add_rest(eye, c, p, q, &parts, 1);
 }
 
-/* How much more than the one before each shadow grows, of how large the polygon is and a hundredth
- * of how far away; chosen: rounding moves shadows a tenth of that and less. */
-static const double GROWS = 1e-11, AWAY = 1e-2;
-/* A rim that does not come back to where it began within so much has lost an edge, or has one too
- * many. */
-static const double OPEN = 1e-8;
-
 double sight_bodies_past(const struct sight *sight, const double x[3], const double n[3], double up,
                          const struct sight_bodies *bodies, double *whole)
 {
     const struct outline_cell *cell = &sight->cell;
     struct casting c;
     struct sight_eye eye;
-    double from[3], size = 0;
+    double from[3];
     for (int k = 0; k < 3; k++)
         from[k] = x[k] + up * n[k];
     sight_eye_open(&eye, sight, x, n);
@@ -511,27 +633,27 @@ double sight_bodies_past(const struct sight *sight, const double x[3], const dou
     *whole = 0;
     if (!(eye.height > 0) || !(c.from[2] > 0))
         return 0;
-    for (int i = 0; i < cell->n; i++)
-        for (int k = 0; k < 2; k++)
-            size = fabs(cell->p[i][k]) > size ? fabs(cell->p[i][k]) : size;
-    size += AWAY * (fabs(c.from[0]) + fabs(c.from[1]) + c.from[2]);
     start_casting(&c, bodies, cell);
     for (int i = 0; i < bodies->count; i++) {
-        const int all = cast_body(&c, bodies, &bodies->body[i], cell, size, GROWS * size * (i + 1));
-        if (all)
-            return all < 0 ? -1 : sight_eye_factor(&eye, whole);
+        const enum rest rest = cast_body(&c, bodies, &bodies->body[i], cell, c.grow * (i + 1));
+        if (rest == REST_UNTOLD)
+            return -1;
+        if (rest == REST_ALL)
+            return sight_eye_factor(&eye, whole);
     }
     if (c.count == 0) {
         (void)sight_eye_factor(&eye, whole);
         return *whole;
     }
-    for (int i = 0, j = cell->n - 1; i < cell->n; j = i++)
-        add_own(&eye, &c, cell, j, i);
+    for (int i = 0; i < cell->n; i++)
+        add_own(&eye, &c, cell, i);
     for (int s = 0; s < c.count; s++)
-        for (int i = c.first[s]; i < c.first[s + 1]; i++)
-            add_shadow(&eye, &c, s, &c.line[i]);
+        for (int i = 0; i < c.shadow[s].n; i++)
+            if (c.shadow[s].by[i] >= POLYGON_MAX)
+                add_shadow(&eye, &c, s, c.shadow[s].p[i],
+                           c.shadow[s].p[i + 1 < c.shadow[s].n ? i + 1 : 0]);
     const double seen = sight_eye_factor(&eye, whole);
-    if (fabs(c.sum[0]) + fabs(c.sum[1]) > OPEN * size)
+    if (!(fabs(c.open) <= OPEN))
         return -1;
     return seen < *whole ? seen : *whole;
 }

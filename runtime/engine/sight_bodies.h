@@ -21,11 +21,13 @@ struct sight_bodies {
     int count, corners, planes, edges;
     struct sight_body {
         int corner, plane, edge; /* where its own begin */
+        int foot;                /* 1: the plane runs through it, or it stands on that */
     } body[SIGHT_BODIES + 1];
     double corner[3][SIGHT_BODY_CORNERS], plane[4][SIGHT_BODY_PLANES];
     struct sight_body_edge {
         int16_t from, to, left, right;
     } edge[SIGHT_BODY_EDGES];
+    double end[2][3][SIGHT_BODY_EDGES + LANES_MOST]; /* the corners of edges */
 };
 
 /* Of the bodies that the faces of a list are part of. Returns 0 when there are too many, or a face

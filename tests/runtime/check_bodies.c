@@ -100,19 +100,17 @@ static void chance_edges(uint64_t *state, double size, double edges[3][3])
 
 /* What points of the lower square see of the upper one past all other faces. */
 struct seen {
-    double most, partial, hidden, points;
+    double most, partial, hidden, points, untold;
 };
 
-static void look(const struct exchange_tree *t, uint32_t faces, const double (*x)[3], int points,
-                 int count, struct seen *seen)
+static void look_at(const struct exchange_tree *t, const struct polygon *part, uint32_t faces,
+                    const double (*x)[3], int points, int count, struct seen *seen)
 {
     static struct sight_bodies bodies;
     const struct element *low = face_of(t, 0), *high = face_of(t, 1);
     uint32_t list[SIGHT_CUT];
     struct sight sight;
-    struct polygon part = {.n = 4};
-    memcpy(part.v, high->vertex, 4 * sizeof *part.v);
-    sight_open(&sight, high, &part, t->host.ray_offset);
+    sight_open(&sight, high, part, t->host.ray_offset);
     for (uint32_t i = 2; i < faces; i++)
         list[i - 2] = t->h.face_element[i];
     ck_assert(sight_bodies_place(&bodies, t, list, (int)faces - 2, &sight.raised));
@@ -123,13 +121,25 @@ static void look(const struct exchange_tree *t, uint32_t faces, const double (*x
                      by_rims = sight_bodies_past(&sight, x[i], low->normal, up, &bodies, &whole[0]),
                      by_faces = sight_factor(&sight, x[i], low->normal, up, t, list, (int)faces - 2,
                                              &whole[1]);
+        seen->points++;
+        if (by_rims < 0) {
+            seen->untold++;
+            continue;
+        }
         ck_assert_double_eq(whole[0], whole[1]);
         ck_assert_double_le(by_rims, whole[0]);
         seen->most = fmax(seen->most, fabs(by_rims - by_faces));
         seen->partial += by_faces > 1e-6 && by_faces < 0.999 * whole[1];
         seen->hidden += !(by_faces > 1e-9);
-        seen->points++;
     }
+}
+
+static void look(const struct exchange_tree *t, uint32_t faces, const double (*x)[3], int points,
+                 int count, struct seen *seen)
+{
+    struct polygon part = {.n = 4};
+    memcpy(part.v, face_of(t, 1)->vertex, 4 * sizeof *part.v);
+    look_at(t, &part, faces, x, points, count, seen);
 }
 
 /* Boxes and tetrahedra anywhere: before each other, through each other, through
@@ -137,7 +147,7 @@ static void look(const struct exchange_tree *t, uint32_t faces, const double (*x
 START_TEST(test_chance)
 {
     uint64_t state = (uint64_t)_i;
-    struct seen seen = {0, 0, 0, 0};
+    struct seen seen = {0};
     for (int scene = 0; scene < 40; scene++) {
         struct scene s;
         struct exchange_tree t;
@@ -176,8 +186,8 @@ START_TEST(test_in_rows)
 {
     struct scene s;
     struct exchange_tree t;
-    struct seen seen = {0, 0, 0, 0};
-    double x[81][3];
+    struct seen seen = {0};
+    double x[162][3];
     open_squares(&s);
     for (int i = 0; i < 6; i++) {
         const double along[3][3] = {{0.25, 0, 0}, {0, 0.25 - 0.01 * i, 0}, {0, 0, 0.25 + 0.01 * i}};
@@ -190,13 +200,14 @@ START_TEST(test_in_rows)
         }
     }
     open_tree(&t, &s);
-    for (int i = 0; i < 81; i++) {
-        x[i][0] = 0.125 * (i % 9);
-        x[i][1] = 0.125 * (i / 9);
+    for (int i = 0; i < 162; i++) { /* the second half not in their planes */
+        x[i][0] = 0.125 * (i % 9) + (i < 81 ? 0 : 0.03);
+        x[i][1] = 0.125 * (i / 9 % 9) + (i < 81 ? 0 : 0.02);
         x[i][2] = 0;
     }
-    look(&t, s.face_count, (const double(*)[3])x, 81, 7, &seen);
-    ck_assert_double_gt(seen.partial, 0.5 * seen.points);
+    look(&t, s.face_count, (const double(*)[3])x, 162, 7, &seen);
+    ck_assert_double_gt(seen.partial, 0.5 * (seen.points - seen.untold));
+    ck_assert_double_lt(seen.untold, 62);
     ck_assert_double_lt(seen.most, 1e-8);
     exchange_tree_close(&t);
     made_close(&s);
@@ -213,7 +224,7 @@ START_TEST(test_in_line)
     uint64_t state = 1000;
     struct scene s;
     struct exchange_tree t;
-    struct seen seen = {0, 0, 0, 0};
+    struct seen seen = {0};
     double x[33][3];
     open_squares(&s);
     for (int i = 0; i < 2; i++)
@@ -245,6 +256,134 @@ START_TEST(test_in_line)
         made_close(&s);
     }
     ck_assert_double_lt(seen.most, 1e-8);
+}
+END_TEST
+
+/* Boxes with their corners on a lattice: they touch and go through each other, share planes, sides
+ * and corners with each other and with the upper square, stand on it and go through its plane; as
+ * seen from points of the lattice, too. */
+START_TEST(test_lattice)
+{
+    uint64_t state = (uint64_t)(2000 + 1000 * _i);
+    struct seen seen = {0};
+    for (int scene = 0; scene < 100; scene++) {
+        struct scene s;
+        struct exchange_tree t;
+        double x[40][3];
+        int whole = 1;
+        open_squares(&s);
+        for (int box = 0; box < 2 + scene % 4; box++) {
+            double at[3], along[3][3] = {{0}};
+            for (int k = 0; k < 3; k++) {
+                const int low = k == 2 ? 1 : -3, from = low + (int)((9 - low) * chance(&state));
+                at[k] = from / 9.0;
+                along[k][k] = (1 + (int)((10 - from) * chance(&state))) / 9.0;
+            }
+            add_box(&s, at, (const double(*)[3])along, 0);
+        }
+        open_tree(&t, &s);
+        for (uint32_t f = 2; f < s.face_count; f++) /* not so where two share an edge */
+            whole &= t.bodies.of[t.h.face_element[f]] != 0;
+        for (int i = 0; i < 40; i++) {
+            for (int k = 0; k < 2; k++)
+                x[i][k] = i % 2 ? chance(&state) : (1 + 2 * (int)(9 * chance(&state))) / 18.0;
+            x[i][2] = 0;
+        }
+        if (whole)
+            look(&t, s.face_count, (const double(*)[3])x, 40, scene % 4 + 2, &seen);
+        exchange_tree_close(&t);
+        made_close(&s);
+    }
+    ck_assert_double_gt(seen.points, 2000);
+    ck_assert_double_lt(seen.untold, 0.01 * seen.points);
+    ck_assert_double_gt(seen.partial, 0.3 * seen.points);
+    ck_assert_double_lt(seen.most, 1e-7);
+}
+END_TEST
+
+/* Two boxes in a row, one of them turned by next to nothing about the middle of both: where their
+ * shadows' edges cross is not known, and points say so. */
+START_TEST(test_turned)
+{
+    uint64_t state = 3000;
+    struct seen seen = {0};
+    for (int scene = 0; scene < 12; scene++) {
+        const double turn = 1e-6 * pow(10, -0.5 * scene),
+                     at[2][3] = {{0.2, 0.4, 0.4}, {0.35, 0, 0.4}},
+                     along[3][3] = {{0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.1}},
+                     turned[3][3] = {{0.3, 0.3 * turn, 0}, {-0.2 * turn, 0.2, 0}, {0, 0, 0.1}},
+                     other[3] = {at[1][0], 0.4 - 0.075 * turn, at[1][2]};
+        struct scene s;
+        struct exchange_tree t;
+        double x[40][3];
+        open_squares(&s);
+        add_box(&s, at[0], along, 0);
+        add_box(&s, other, turned, 0);
+        open_tree(&t, &s);
+        for (int i = 0; i < 40; i++) {
+            x[i][0] = chance(&state);
+            x[i][1] = chance(&state);
+            x[i][2] = 0;
+        }
+        look(&t, s.face_count, (const double(*)[3])x, 40, 2, &seen);
+        made_close(&s);
+    }
+    ck_assert_double_lt(seen.most, 1e-8);
+    ck_assert_double_gt(seen.untold, 0);
+}
+END_TEST
+
+/* A point within a box that goes through the upper square's plane sees what of the square is in the
+ * box, too: no face stands before that. */
+START_TEST(test_within)
+{
+    static const double at[3] = {0.25, 0.25, -0.25},
+                        along[3][3] = {{0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 1.5}},
+                        x[1][3] = {{0.5, 0.5, 0}};
+    struct scene s;
+    struct exchange_tree t;
+    struct seen seen = {0};
+    open_squares(&s);
+    add_box(&s, at, along, 0);
+    open_tree(&t, &s);
+    look(&t, s.face_count, x, 1, 1, &seen);
+    ck_assert_double_lt(seen.most, 1e-9);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
+/* Where a corner of what is looked at lies in a plane that it is cut along, it may be there twice,
+ * and the side between has any direction: no box is beside that. */
+START_TEST(test_short_side)
+{
+    static const double at[3] = {0.4, 0.4, 0.4},
+                        along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
+    struct scene s;
+    struct exchange_tree t;
+    struct seen seen = {0};
+    double x[9][3];
+    open_squares(&s);
+    add_box(&s, at, along, 0);
+    open_tree(&t, &s);
+    for (int i = 0; i < 9; i++) {
+        x[i][0] = 0.3 + 0.2 * (i % 3);
+        x[i][1] = 0.3 + 0.2 * (i / 3);
+        x[i][2] = 0;
+    }
+    for (int i = 0; i < 8; i++) {
+        struct polygon part = {.n = 5};
+        memcpy(part.v, face_of(&t, 1)->vertex, 4 * sizeof *part.v);
+        memcpy(part.v[4], part.v[3], sizeof part.v[3]);
+        part.v[4][0] += 1e-16 * cos(i);
+        part.v[4][1] += 1e-16 * sin(i);
+        look_at(&t, &part, s.face_count, (const double(*)[3])x, 9, 1, &seen);
+    }
+    ck_assert_double_gt(seen.partial, 0.5 * seen.points);
+    ck_assert_double_lt(seen.most, 1e-9);
+    ck_assert_double_eq(seen.untold, 0);
+    exchange_tree_close(&t);
+    made_close(&s);
 }
 END_TEST
 
@@ -292,6 +431,10 @@ int main(void)
     tcase_add_loop_test(tests, test_chance, 0, 4);
     tcase_add_test(tests, test_in_rows);
     tcase_add_test(tests, test_in_line);
+    tcase_add_loop_test(tests, test_lattice, 0, 4);
+    tcase_add_test(tests, test_turned);
+    tcase_add_test(tests, test_within);
+    tcase_add_test(tests, test_short_side);
     tcase_add_test(tests, test_which);
     return suite_failures(suite);
 }
