@@ -19,6 +19,7 @@
 #include <string.h>
 #include "engine/exchange_sight.h"
 #include "engine/face_rule.h"
+#include "engine/sight_bodies.h"
 #include "engine/sight_outlines.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
@@ -44,6 +45,7 @@ struct looking {
     struct sight sight;
     struct sight_scratch *scratch;
     int nodes, heap;
+    int by_bodies;        /* 1: what is in scratch->between is in scratch->bodies */
     int shared;           /* 1: scratch->between is the pair's, and does for all pieces */
     int between_of;       /* else: the node that it is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
@@ -66,10 +68,13 @@ int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits 
     scratch->lists = malloc((most * (size_t)limits->list + 1) * sizeof *scratch->lists);
     scratch->heap = malloc(most * sizeof *scratch->heap);
     scratch->between = malloc(sizeof *scratch->between);
+    scratch->bodies = malloc(sizeof *scratch->bodies);
     for (int i = 0; i < 2; i++)
         face_fit_open(&scratch->fit[i], 3 + i, 2);
     face_fit_open(&scratch->inside, 4, 1);
-    return scratch->nodes && scratch->lists && scratch->heap && scratch->between ? 0 : -1;
+    return scratch->nodes && scratch->lists && scratch->heap && scratch->between && scratch->bodies
+               ? 0
+               : -1;
 }
 
 void sight_scratch_close(struct sight_scratch *scratch)
@@ -78,6 +83,7 @@ void sight_scratch_close(struct sight_scratch *scratch)
     free(scratch->lists);
     free(scratch->heap);
     free(scratch->between);
+    free(scratch->bodies);
 }
 
 /* A piece of e with these corners. */
@@ -146,13 +152,30 @@ static uint32_t *list_of(const struct looking *l, int at)
     return l->scratch->lists + (size_t)at * (size_t)l->scratch->limits.list;
 }
 
-/* What a point sees past what stands between. Outlines save most where faces go on into each other;
- * faces by themselves, and bent ones, are cut out one by one. Many faces leave parts that each meet
- * few of them, and many edges part what is hidden, too. */
+/* What stands between, for points to look past it. Returns -1 when it is too much. */
+static int place_between(struct looking *l)
+{
+    struct sight_between *b = l->scratch->between;
+    l->by_bodies =
+        !b->bent
+        && sight_bodies_place(l->scratch->bodies, l->tree, b->list, b->faces, &l->sight.raised);
+    return l->by_bodies ? 0 : sight_between_place(b, l->tree, &l->sight);
+}
+
+/* What a point sees past what stands between: solids, if they alone do, by the rims of their
+ * shadows, unless rounding leaves open where these run. Else outlines save most where faces go on
+ * into each other; faces by themselves, and bent ones, are cut out one by one. Many faces leave
+ * parts that each meet few of them, and many edges part what is hidden, too. */
 static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
 {
     const struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
+    if (l->by_bodies) {
+        const double seen = sight_bodies_past(&l->sight, x, n, up, l->scratch->bodies, whole);
+        if (seen >= 0)
+            return seen;
+        return sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
+    }
     /* edges of two faces; measured */
     const int most = b->faces > SIGHT_SHORT && b->faces <= SIGHT_CUT ? 3 : 4;
     return !b->bent && 2 * b->edges <= most * b->faces
@@ -223,9 +246,7 @@ static enum between find_between(struct looking *l, const struct element *piece,
         }
         stands = sight_between_find(between, l->tree, &shaft, list, count, 0);
     }
-    return stands == BETWEEN_SOME && sight_between_place(between, l->tree, &l->sight) < 0
-               ? BETWEEN_MANY
-               : stands;
+    return stands == BETWEEN_SOME && place_between(l) < 0 ? BETWEEN_MANY : stands;
 }
 
 /* What a piece sees, by its own points, past those of the list that stand in its shaft. */
@@ -498,8 +519,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     sight_open(&l.sight, l.to, &seen, host->ray_offset);
     /* of bent faces one too many may hide what it does not stand before */
     l.shared = stands == BETWEEN_SOME && !scratch->between->bent
-               && scratch->between->faces <= SIGHT_SHARED
-               && sight_between_place(scratch->between, t, &l.sight) == 0;
+               && scratch->between->faces <= SIGHT_SHARED && place_between(&l) == 0;
     double sum = integrate(&l, &part, all, own, many ? MANY : count, least, error);
     if (!(sum > SIGHT_NEARLY_CLEAR * l.clear))
         return sum;

@@ -23,6 +23,7 @@ struct sight_scratch {
     uint32_t *lists; /* limits.list for each node */
     int *heap;
     struct sight_between *between;
+    struct sight_bodies *bodies;
     struct face_fit fit[2]; /* of triangles, of quads */
     struct face_fit inside; /* of a quad, without its rim */
     struct sight_limits limits;

@@ -5,7 +5,7 @@
 #define EXCHANGE_TREE_H
 
 #include "hierarchy/group_hierarchy.h"
-#include "hierarchy/mates.h"
+#include "hierarchy/bodies.h"
 #include "visibility/rays.h"
 
 struct exchange_tree {
@@ -13,6 +13,7 @@ struct exchange_tree {
     struct host host;
     struct hierarchy h;
     struct mates mates; /* of what stands in shafts */
+    struct bodies bodies;
     /* not built where nothing is in the way: who asks what they meet builds them before */
     struct rays *rays;
     struct hierarchy plain; /* what they are built of; empty when they are */

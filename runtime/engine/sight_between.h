@@ -44,10 +44,4 @@ static inline int sight_between_blocks(const struct sight_between *b)
     return (b->faces + SIGHT_BOXED - 1) / SIGHT_BOXED;
 }
 
-static inline void sight_in_plane(const struct outline_frame *f, const double p[3], double out[3])
-{
-    outline_in(f, p, out);
-    out[2] = height3(p, f->origin, f->n);
-}
-
 #endif

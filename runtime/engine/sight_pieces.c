@@ -37,7 +37,7 @@ LANES_AVX2 void edges_4(struct sight_eye *eye)
 }
 #endif
 
-static void edges_sum(struct sight_eye *eye)
+void sight_eye_sum(struct sight_eye *eye)
 {
     struct sight_edges *g = &eye->edges;
     for (int k = g->count; k % LANES; k++)
@@ -83,7 +83,7 @@ static double factor_of(double sum)
 
 double sight_eye_factor(struct sight_eye *eye, double *whole)
 {
-    edges_sum(eye);
+    sight_eye_sum(eye);
     *whole = factor_of(eye->edges.whole);
     return factor_of(eye->edges.sum);
 }
@@ -92,14 +92,9 @@ void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell)
 {
     struct sight_edges *g = &eye->edges;
     if (g->count + cell->n > SIGHT_EYE_EDGES)
-        edges_sum(eye);
-    for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
-        for (int k = 0; k < 2; k++) {
-            g->a[k][g->count] = cell->p[j][k] - eye->at[k];
-            g->b[k][g->count] = cell->p[i][k] - eye->at[k];
-        }
-        g->count++;
-    }
+        sight_eye_sum(eye);
+    for (int i = 0, j = cell->n - 1; i < cell->n; j = i++)
+        sight_eye_edge(eye, cell->p[j], cell->p[i]);
 }
 
 int sight_runs_through(const double from[2], double a, double b, const struct outline_cell *cell,

@@ -44,9 +44,29 @@ void sight_open(struct sight *sight, const struct element *e, const struct polyg
 void sight_eye_open(struct sight_eye *eye, const struct sight *sight, const double x[3],
                     const double n[3]);
 void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell);
-/* Of all cells of the plane that were added, Lambert's sum, and of all of the polygon; in [0, 1].
+void sight_eye_sum(struct sight_eye *eye);
+static inline void sight_eye_edge(struct sight_eye *eye, const double from[2], const double to[2])
+{
+    struct sight_edges *g = &eye->edges;
+    if (g->count == SIGHT_EYE_EDGES)
+        sight_eye_sum(eye);
+    for (int k = 0; k < 2; k++) {
+        g->a[k][g->count] = from[k] - eye->at[k];
+        g->b[k][g->count] = to[k] - eye->at[k];
+    }
+    g->count++;
+}
+
+/* Of all cells and edges of the plane that were added, Lambert's sum, and of all of the polygon; in
+ * [0, 1].
  */
 double sight_eye_factor(struct sight_eye *eye, double *whole);
+
+static inline void sight_in_plane(const struct outline_frame *f, const double p[3], double out[3])
+{
+    outline_in(f, p, out);
+    out[2] = height3(p, f->origin, f->n);
+}
 
 /* Does an edge run through a convex cell, whose corners have the heights h over its line a u + b v
  * = c? By where the line enters and leaves: cells may have sides without a direction. The edge

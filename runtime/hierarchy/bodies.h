@@ -1,0 +1,35 @@
+/* bodies.h - convex solids of a few faces: what stands in shafts, where some make one.
+ * SPDX-License-Identifier: MIT */
+#ifndef BODIES_H
+#define BODIES_H
+
+#include "hierarchy/mates.h"
+
+/* the most faces of a body: of more, outlines are found edge by edge */
+enum { BODY_FACES = 32, BODY_CORNERS = 4 * BODY_FACES, BODY_EDGES = 2 * BODY_FACES };
+
+/* From a corner to another, by their places among the body's, and the faces at it, by theirs: the
+ * left one is on the left as seen from outside. */
+struct body_edge {
+    uint8_t from, to, left, right;
+};
+
+/* Where its parts begin in the lists of all bodies, and how many they are. */
+struct body {
+    uint32_t face, corner, edge;
+    uint8_t faces, corners, edges;
+};
+
+struct bodies {
+    uint32_t *of; /* [built]: 1 more than the body that an element is a face of; 0: of none */
+    struct body *body;
+    uint32_t *faces;
+    double (*corners)[3];
+    struct body_edge *edges;
+};
+
+/* Of a hierarchy with groups. Returns 0, or -1 when out of memory; close is fine then too. */
+int bodies_open(struct bodies *bodies, const struct hierarchy *h, const struct mates *mates);
+void bodies_close(struct bodies *bodies);
+
+#endif

@@ -1,0 +1,440 @@
+/* check_bodies.c - convex solids of a few faces: which faces make one; and what a point sees of a
+ * square past them, by the rims of their shadows, against what is left when the shadow of each face
+ * is cut out.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdio.h>
+#include "engine/sight_bodies.h"
+#include "kernel/hash.h"
+#include "scene/make_scene.h"
+#include "suite.h"
+
+static double chance(uint64_t *state)
+{
+    return (double)(hash64(++*state) >> 11) * 0x1p-53;
+}
+
+/* Along u, v and w from a corner: a box; without its first `missing` faces. */
+static void add_box(struct scene *s, const double at[3], const double (*along)[3], int missing)
+{
+    static const int corners[6][4] = {{4, 5, 7, 6}, {0, 2, 3, 1}, {0, 4, 6, 2},
+                                      {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}};
+    for (int f = missing; f < 6; f++) {
+        double p[4][3];
+        for (int i = 0; i < 4; i++)
+            for (int k = 0; k < 3; k++) {
+                p[i][k] = at[k];
+                for (int axis = 0; axis < 3; axis++)
+                    p[i][k] += corners[f][i] >> axis & 1 ? along[axis][k] : 0;
+            }
+        made_face(s, 0, 4, (const double(*)[3])p);
+    }
+}
+
+/* The corner of a box. */
+static void add_tetrahedron(struct scene *s, const double at[3], const double (*along)[3])
+{
+    static const int corners[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    for (int f = 0; f < 4; f++) {
+        double p[3][3];
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                p[i][k] = at[k] + (corners[f][i] ? along[corners[f][i] - 1][k] : 0);
+        made_face(s, 0, 3, (const double(*)[3])p);
+    }
+}
+
+/* Eight triangles, the upper corner at a height over the middle. */
+static void add_octahedron(struct scene *s, const double c[3], double size, double height)
+{
+    for (int f = 0; f < 8; f++) {
+        const int x = f & 1 ? 1 : -1, y = f & 2 ? 1 : -1, upper = f & 4;
+        const double top = c[2] + (upper ? height : -size),
+                     p[3][3] = {{c[0] + x * size, c[1], c[2]},
+                                {c[0], c[1] + y * size, c[2]},
+                                {c[0], c[1], top}},
+                     q[3][3] = {{p[1][0], p[1][1], p[1][2]},
+                                {p[0][0], p[0][1], p[0][2]},
+                                {p[2][0], p[2][1], p[2][2]}};
+        made_face(s, 0, 3, (const double(*)[3])((x * y > 0) == (upper != 0) ? p : q));
+    }
+}
+
+/* Two squares that face each other at a distance of their side: faces 0 and 1. */
+static void open_squares(struct scene *s)
+{
+    made_open(s);
+    made_material(s, 0.5, 0);
+    made_quad(s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+    made_quad(s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+}
+
+static void open_tree(struct exchange_tree *t, const struct scene *s)
+{
+    const char *cause;
+    ck_assert_int_eq(exchange_tree_open(t, s->faces, s->face_count, 1, &cause), 0);
+}
+
+static const struct element *face_of(const struct exchange_tree *t, uint32_t face)
+{
+    return &t->h.elements[t->h.face_element[face]];
+}
+
+/* Three edges of a box of any size, turned by chance; right-handed. */
+static void chance_edges(uint64_t *state, double size, double edges[3][3])
+{
+    double n[3], u[3], v[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = chance(state) - 0.5;
+        u[k] = chance(state) - 0.5;
+    }
+    cross3(v, n, u);
+    cross3(u, v, n);
+    const double *axes[3] = {u, v, n};
+    for (int i = 0; i < 3; i++) {
+        const double scale = size * (0.2 + chance(state)) / length3(axes[i]);
+        for (int k = 0; k < 3; k++)
+            edges[i][k] = scale * axes[i][k];
+    }
+}
+
+/* What points of the lower square see of the upper one past all other faces. */
+struct seen {
+    double most, partial, hidden, points, untold;
+};
+
+static void look_at(const struct exchange_tree *t, const struct polygon *part, uint32_t faces,
+                    const double (*x)[3], int points, int count, struct seen *seen)
+{
+    static struct sight_bodies bodies;
+    const struct element *low = face_of(t, 0), *high = face_of(t, 1);
+    uint32_t list[SIGHT_CUT];
+    struct sight sight;
+    sight_open(&sight, high, part, t->host.ray_offset);
+    for (uint32_t i = 2; i < faces; i++)
+        list[i - 2] = t->h.face_element[i];
+    ck_assert(sight_bodies_place(&bodies, t, list, (int)faces - 2, &sight.raised));
+    ck_assert_int_le(bodies.count, count);
+    for (int i = 0; i < points; i++) {
+        double whole[2];
+        const double up = t->host.ray_offset,
+                     by_rims = sight_bodies_past(&sight, x[i], low->normal, up, &bodies, &whole[0]),
+                     by_faces = sight_factor(&sight, x[i], low->normal, up, t, list, (int)faces - 2,
+                                             &whole[1]);
+        seen->points++;
+        if (by_rims < 0) {
+            seen->untold++;
+            continue;
+        }
+        ck_assert_double_eq(whole[0], whole[1]);
+        ck_assert_double_le(by_rims, whole[0]);
+        seen->most = fmax(seen->most, fabs(by_rims - by_faces));
+        seen->partial += by_faces > 1e-6 && by_faces < 0.999 * whole[1];
+        seen->hidden += !(by_faces > 1e-9);
+    }
+}
+
+static void look(const struct exchange_tree *t, uint32_t faces, const double (*x)[3], int points,
+                 int count, struct seen *seen)
+{
+    struct polygon part = {.n = 4};
+    memcpy(part.v, face_of(t, 1)->vertex, 4 * sizeof *part.v);
+    look_at(t, &part, faces, x, points, count, seen);
+}
+
+/* Boxes and tetrahedra anywhere: before each other, through each other, through
+ * both squares' planes and around the point. */
+START_TEST(test_chance)
+{
+    uint64_t state = (uint64_t)_i;
+    struct seen seen = {0};
+    for (int scene = 0; scene < 40; scene++) {
+        struct scene s;
+        struct exchange_tree t;
+        double x[40][3];
+        open_squares(&s);
+        for (int body = 0; body <= scene % 8; body++) {
+            double edges[3][3], at[3];
+            chance_edges(&state, body % 2 ? 0.3 : 0.6, edges);
+            for (int k = 0; k < 3; k++)
+                at[k] = chance(&state) - 0.3 * edges[0][k];
+            if (body % 2)
+                add_tetrahedron(&s, at, (const double(*)[3])edges);
+            else
+                add_box(&s, at, (const double(*)[3])edges, 0);
+        }
+        open_tree(&t, &s);
+        for (int i = 0; i < 40; i++) {
+            x[i][0] = chance(&state);
+            x[i][1] = chance(&state);
+            x[i][2] = 0;
+        }
+        look(&t, s.face_count, (const double(*)[3])x, 40, scene % 8 + 1, &seen);
+        exchange_tree_close(&t);
+        made_close(&s);
+    }
+    ck_assert_double_gt(seen.partial, 0.5 * seen.points);
+    ck_assert_double_gt(seen.hidden, 0.02 * seen.points);
+    ck_assert_double_lt(seen.most, 1e-9);
+}
+END_TEST
+
+/* Boxes side by side and on each other, along the squares' sides, none as long as another, so that
+ * none has an edge of another's, one of them through the upper square's plane; from points under
+ * their edges and corners, too. Shadows have edges along each other's there. */
+START_TEST(test_in_rows)
+{
+    struct scene s;
+    struct exchange_tree t;
+    struct seen seen = {0};
+    double x[162][3];
+    open_squares(&s);
+    for (int i = 0; i < 6; i++) {
+        const double along[3][3] = {{0.25, 0, 0}, {0, 0.25 - 0.01 * i, 0}, {0, 0, 0.25 + 0.01 * i}};
+        const double at[3] = {0.25 * (i % 3), 0.25 * (i / 3 + i % 2), i == 4 ? 0.8 : 0.25};
+        add_box(&s, at, along, 0);
+        if (i == 1) {
+            const double over[3] = {at[0], at[1], 0.51},
+                         on_it[3][3] = {{0.125, 0, 0}, {0, 0.125, 0}, {0, 0, 0.125}};
+            add_box(&s, over, on_it, 0);
+        }
+    }
+    open_tree(&t, &s);
+    for (int i = 0; i < 162; i++) { /* the second half not in their planes */
+        x[i][0] = 0.125 * (i % 9) + (i < 81 ? 0 : 0.03);
+        x[i][1] = 0.125 * (i / 9 % 9) + (i < 81 ? 0 : 0.02);
+        x[i][2] = 0;
+    }
+    look(&t, s.face_count, (const double(*)[3])x, 162, 7, &seen);
+    ck_assert_double_gt(seen.partial, 0.5 * (seen.points - seen.untold));
+    ck_assert_double_lt(seen.untold, 62);
+    ck_assert_double_lt(seen.most, 1e-8);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
+/* Two boxes whose long edges are in one plane with the points, so that two edges of their shadows
+ * run along each other, on one side of both; and a box one of whose edges points at the point. */
+START_TEST(test_in_line)
+{
+    static const double at[2][3] = {{0.2, 0.3, 0.3}, {0.3, 0.35, 0.5}},
+                        along[2][3][3] = {{{0.1, 0, 0}, {0, 0.3, 0}, {0, 0, 0.1}},
+                                          {{0.2, 0, 0}, {0, 0.4, 0}, {0, 0, 0.1}}};
+    uint64_t state = 1000;
+    struct scene s;
+    struct exchange_tree t;
+    struct seen seen = {0};
+    double x[33][3];
+    open_squares(&s);
+    for (int i = 0; i < 2; i++)
+        add_box(&s, at[i], along[i], 0);
+    open_tree(&t, &s);
+    for (int i = 0; i < 33; i++) { /* raised, in the plane of two edges on the left or the right */
+        x[i][0] = t.host.ray_offset / (i % 2 + 1);
+        x[i][1] = i / 32.0;
+        x[i][2] = 0;
+    }
+    look(&t, s.face_count, (const double(*)[3])x, 33, 2, &seen);
+    exchange_tree_close(&t);
+    made_close(&s);
+    for (int scene = 0; scene < 200; scene++) {
+        double edges[3][3], corner[3], eyes[3][3];
+        open_squares(&s);
+        chance_edges(&state, 0.15, edges);
+        for (int k = 0; k < 3; k++)
+            corner[k] = 0.4 + 0.2 * chance(&state);
+        add_box(&s, corner, (const double(*)[3])edges, 0);
+        open_tree(&t, &s);
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                eyes[i][k] =
+                    k < 2 ? corner[k] - (corner[2] - t.host.ray_offset) / edges[i][2] * edges[i][k]
+                          : 0;
+        look(&t, s.face_count, (const double(*)[3])eyes, 3, 1, &seen);
+        exchange_tree_close(&t);
+        made_close(&s);
+    }
+    ck_assert_double_lt(seen.most, 1e-8);
+}
+END_TEST
+
+/* Boxes with their corners on a lattice: they touch and go through each other, share planes, sides
+ * and corners with each other and with the upper square, stand on it and go through its plane; as
+ * seen from points of the lattice, too. */
+START_TEST(test_lattice)
+{
+    uint64_t state = (uint64_t)(2000 + 1000 * _i);
+    struct seen seen = {0};
+    for (int scene = 0; scene < 100; scene++) {
+        struct scene s;
+        struct exchange_tree t;
+        double x[40][3];
+        int whole = 1;
+        open_squares(&s);
+        for (int box = 0; box < 2 + scene % 4; box++) {
+            double at[3], along[3][3] = {{0}};
+            for (int k = 0; k < 3; k++) {
+                const int low = k == 2 ? 1 : -3, from = low + (int)((9 - low) * chance(&state));
+                at[k] = from / 9.0;
+                along[k][k] = (1 + (int)((10 - from) * chance(&state))) / 9.0;
+            }
+            add_box(&s, at, (const double(*)[3])along, 0);
+        }
+        open_tree(&t, &s);
+        for (uint32_t f = 2; f < s.face_count; f++) /* not so where two share an edge */
+            whole &= t.bodies.of[t.h.face_element[f]] != 0;
+        for (int i = 0; i < 40; i++) {
+            for (int k = 0; k < 2; k++)
+                x[i][k] = i % 2 ? chance(&state) : (1 + 2 * (int)(9 * chance(&state))) / 18.0;
+            x[i][2] = 0;
+        }
+        if (whole)
+            look(&t, s.face_count, (const double(*)[3])x, 40, scene % 4 + 2, &seen);
+        exchange_tree_close(&t);
+        made_close(&s);
+    }
+    ck_assert_double_gt(seen.points, 2000);
+    ck_assert_double_lt(seen.untold, 0.01 * seen.points);
+    ck_assert_double_gt(seen.partial, 0.3 * seen.points);
+    ck_assert_double_lt(seen.most, 1e-7);
+}
+END_TEST
+
+/* Two boxes in a row, one of them turned by next to nothing about the middle of both: where their
+ * shadows' edges cross is not known, and points say so. */
+START_TEST(test_turned)
+{
+    uint64_t state = 3000;
+    struct seen seen = {0};
+    for (int scene = 0; scene < 12; scene++) {
+        const double turn = 1e-6 * pow(10, -0.5 * scene),
+                     at[2][3] = {{0.2, 0.4, 0.4}, {0.35, 0, 0.4}},
+                     along[3][3] = {{0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.1}},
+                     turned[3][3] = {{0.3, 0.3 * turn, 0}, {-0.2 * turn, 0.2, 0}, {0, 0, 0.1}},
+                     other[3] = {at[1][0], 0.4 - 0.075 * turn, at[1][2]};
+        struct scene s;
+        struct exchange_tree t;
+        double x[40][3];
+        open_squares(&s);
+        add_box(&s, at[0], along, 0);
+        add_box(&s, other, turned, 0);
+        open_tree(&t, &s);
+        for (int i = 0; i < 40; i++) {
+            x[i][0] = chance(&state);
+            x[i][1] = chance(&state);
+            x[i][2] = 0;
+        }
+        look(&t, s.face_count, (const double(*)[3])x, 40, 2, &seen);
+        made_close(&s);
+    }
+    ck_assert_double_lt(seen.most, 1e-8);
+    ck_assert_double_gt(seen.untold, 0);
+}
+END_TEST
+
+/* A point within a box that goes through the upper square's plane sees what of the square is in the
+ * box, too: no face stands before that. */
+START_TEST(test_within)
+{
+    static const double at[3] = {0.25, 0.25, -0.25},
+                        along[3][3] = {{0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 1.5}},
+                        x[1][3] = {{0.5, 0.5, 0}};
+    struct scene s;
+    struct exchange_tree t;
+    struct seen seen = {0};
+    open_squares(&s);
+    add_box(&s, at, along, 0);
+    open_tree(&t, &s);
+    look(&t, s.face_count, x, 1, 1, &seen);
+    ck_assert_double_lt(seen.most, 1e-9);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
+/* Where a corner of what is looked at lies in a plane that it is cut along, it may be there twice,
+ * and the side between has any direction: no box is beside that. */
+START_TEST(test_short_side)
+{
+    static const double at[3] = {0.4, 0.4, 0.4},
+                        along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
+    struct scene s;
+    struct exchange_tree t;
+    struct seen seen = {0};
+    double x[9][3];
+    open_squares(&s);
+    add_box(&s, at, along, 0);
+    open_tree(&t, &s);
+    for (int i = 0; i < 9; i++) {
+        x[i][0] = 0.3 + 0.2 * (i % 3);
+        x[i][1] = 0.3 + 0.2 * (i / 3);
+        x[i][2] = 0;
+    }
+    for (int i = 0; i < 8; i++) {
+        struct polygon part = {.n = 5};
+        memcpy(part.v, face_of(&t, 1)->vertex, 4 * sizeof *part.v);
+        memcpy(part.v[4], part.v[3], sizeof part.v[3]);
+        part.v[4][0] += 1e-16 * cos(i);
+        part.v[4][1] += 1e-16 * sin(i);
+        look_at(&t, &part, s.face_count, (const double(*)[3])x, 9, 1, &seen);
+    }
+    ck_assert_double_gt(seen.partial, 0.5 * seen.points);
+    ck_assert_double_lt(seen.most, 1e-9);
+    ck_assert_double_eq(seen.untold, 0);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
+/* A box is one, and an octahedron; one without a lid, one inside out, one that is pushed in and a
+ * plate of two faces are none; nor are two boxes that share an edge. */
+START_TEST(test_which)
+{
+    static const double along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}},
+                        inside_out[3][3] = {{0, 0.2, 0}, {0.2, 0, 0}, {0, 0, 0.2}};
+    const double at[5][3] = {
+        {0, 0, 0.1}, {0.5, 0, 0.1}, {0, 0.5, 0.1}, {0.5, 0.5, 0.1}, {0.7, 0.7, 0.1}};
+    const double middle[2][3] = {{0.8, 0.2, 0.5}, {0.2, 0.8, 0.5}};
+    const uint32_t faces[8] = {2, 8, 16, 21, 27, 39, 41, 49};
+    struct scene s;
+    struct exchange_tree t;
+    open_squares(&s);
+    add_box(&s, at[0], along, 0);
+    add_octahedron(&s, middle[0], 0.1, 0.1);
+    add_box(&s, at[1], along, 1);
+    add_box(&s, at[2], inside_out, 0);
+    add_box(&s, at[3], along, 0);
+    add_box(&s, at[4], along, 0);
+    made_quad(&s, 0, 0.3, 0.3, 0.9, 0.1, 0, 0, 0, 0.1, 0);
+    made_quad(&s, 0, 0.3, 0.3, 0.9, 0, 0.1, 0, 0.1, 0, 0);
+    add_octahedron(&s, middle[1], 0.1, -0.05);
+    ck_assert_int_eq((int)s.face_count, (int)faces[7]);
+    open_tree(&t, &s);
+    for (int i = 0; i < 7; i++)
+        for (uint32_t f = faces[i]; f < faces[i + 1]; f++)
+            ck_assert_int_eq(t.bodies.of[t.h.face_element[f]] != 0, i < 2);
+    ck_assert_int_eq(t.bodies.body[0].faces, 6);
+    ck_assert_int_eq(t.bodies.body[0].corners, 8);
+    ck_assert_int_eq(t.bodies.body[0].edges, 12);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("bodies");
+    TCase *tests = tcase_create("bodies");
+    tcase_set_timeout(tests, 120);
+    suite_add_tcase(suite, tests);
+    tcase_add_loop_test(tests, test_chance, 0, 4);
+    tcase_add_test(tests, test_in_rows);
+    tcase_add_test(tests, test_in_line);
+    tcase_add_loop_test(tests, test_lattice, 0, 4);
+    tcase_add_test(tests, test_turned);
+    tcase_add_test(tests, test_within);
+    tcase_add_test(tests, test_short_side);
+    tcase_add_test(tests, test_which);
+    return suite_failures(suite);
+}
