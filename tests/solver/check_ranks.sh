@@ -223,8 +223,13 @@ used() { awk '{ sub(/.*[)] /, ""); print $12 + $13 }' "/proc/$1/stat"; } # PID: 
 several 2 "$radiosity" solve "$scenes/td.obj" -q >said 2>&1 &
 run=$!
 rank_of solve 1 && held=$found && sleep .3 && kill -STOP "$held"
-rank_of solve 0 && waits=$found && sleep 5 && before=$(used "$waits") && sleep 2
-check "a rank that waits took ${before:-?} to $(used "$waits") hundredths of a second in 2 s" [ $(($(used "$waits") - before)) -lt 50 ]
+rank_of solve 0 && waits=$found
+took=200 # beside other work it may not be done with its own yet: then the next two seconds are looked at
+for try in 1 2 3 4 5 6 7 8 9 10; do
+    before=$(used "$waits") && sleep 2 && took=$(($(used "$waits") - before))
+    [ "$took" -lt 50 ] && break
+done
+check "a rank that waits took $took hundredths of a second in 2 s, $try times" [ "$took" -lt 50 ]
 kill -CONT "$held"
 wait $run
 check "a run that was held up: status $?: $(head -n 3 said)" [ ! -s said ]
