@@ -123,11 +123,11 @@ children of several are not told | runtime/engine/mend_places.c | s/            
 quarters of the next drawer | runtime/hierarchy/quarters.c | s/drawer = &drawers\[(/drawer = \&drawers[1 + (/ | runtime/check_own_counts
 meshes far away | solver/output/far_away.c | s/return moved;/return 0;/ | solver/check_picture
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
-shadows grow alike | runtime/engine/sight_bodies.c | s/c.grow \* (i + 1)/0 * c.grow * (i + 1)/ | runtime/check_bodies
-short sides have directions | runtime/engine/sight_bodies.c | s/SHORT = 1e-6/SHORT = 0/ | runtime/check_bodies
-shadows hide no others | runtime/engine/sight_bodies.c | s/s == own ? 0 : 1;/s == own ? 0 : 0;/ | runtime/check_bodies
-nothing is seen from within | runtime/engine/sight_bodies.c | s/body->foot ? REST_UNTOLD : REST_ALL/REST_ALL/ | runtime/check_bodies
-open rims are trusted | runtime/engine/sight_bodies.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
+shadows grow alike | runtime/engine/sight_rims.c | s/c->grow \* (i + 1)/0 * c->grow * (i + 1)/ | runtime/check_bodies
+short sides have directions | runtime/engine/sight_casting.c | s/SHORT = 1e-6/SHORT = 0/ | runtime/check_bodies
+shadows hide no others | runtime/engine/sight_rims.c | s/s == own ? 0 : 1;/s == own ? 0 : 0;/ | runtime/check_bodies
+nothing is seen from within | runtime/engine/sight_casting.c | s/body->foot ? REST_UNTOLD : REST_ALL/REST_ALL/ | runtime/check_bodies
+open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
 plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/if (height > h->flat/if (height > 1e9/ | runtime/check_bodies
 END

@@ -19,8 +19,8 @@
 #include <string.h>
 #include "engine/exchange_sight.h"
 #include "engine/face_rule.h"
-#include "engine/sight_bodies.h"
 #include "engine/sight_outlines.h"
+#include "engine/sight_rims.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/shaft.h"
@@ -171,7 +171,7 @@ static double past(const struct looking *l, const double x[3], const double n[3]
     const struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
     if (l->by_bodies) {
-        const double seen = sight_bodies_past(&l->sight, x, n, up, l->scratch->bodies, whole);
+        const double seen = sight_rims_past(&l->sight, x, n, up, l->scratch->bodies, whole);
         if (seen >= 0)
             return seen;
         return sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);

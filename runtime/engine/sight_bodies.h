@@ -1,4 +1,4 @@
-/* sight_bodies.h - what a point sees of a convex polygon past convex solids.
+/* sight_bodies.h - convex solids in the coordinates of the plane that their shadows are cast on.
  * SPDX-License-Identifier: MIT */
 #ifndef SIGHT_BODIES_H
 #define SIGHT_BODIES_H
@@ -34,9 +34,5 @@ struct sight_bodies {
  * is of none. */
 int sight_bodies_place(struct sight_bodies *bodies, const struct exchange_tree *tree,
                        const uint32_t *list, int count, const struct outline_frame *frame);
-
-/* sight_factor past them. */
-double sight_bodies_past(const struct sight *sight, const double x[3], const double n[3], double up,
-                         const struct sight_bodies *bodies, double *whole);
 
 #endif

@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
-#include "engine/sight_bodies.h"
+#include "engine/sight_rims.h"
 #include "kernel/hash.h"
 #include "scene/make_scene.h"
 #include "suite.h"
@@ -118,7 +118,7 @@ static void look_at(const struct exchange_tree *t, const struct polygon *part, u
     for (int i = 0; i < points; i++) {
         double whole[2];
         const double up = t->host.ray_offset,
-                     by_rims = sight_bodies_past(&sight, x[i], low->normal, up, &bodies, &whole[0]),
+                     by_rims = sight_rims_past(&sight, x[i], low->normal, up, &bodies, &whole[0]),
                      by_faces = sight_factor(&sight, x[i], low->normal, up, t, list, (int)faces - 2,
                                              &whole[1]);
         seen->points++;

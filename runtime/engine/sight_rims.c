@@ -1,0 +1,177 @@
+/* sight_rims.c - what a point sees of a convex polygon past convex solids, by the rims of their
+ * shadows.
+ *
+ * The union of the shadows is not cut out: Lambert's sum goes around what is seen, and that is the
+ * rim of the polygon, as far as it is no shadow's, and the rims of shadows, the other way round, as
+ * far as they lie in the polygon and outside of the others. How far that is, is an interval of an
+ * edge for each shadow. Each shadow grows more than the one before, by far less than counts: of two
+ * edges in one place one is inside of the other's shadow, or both are. Where a shadow is not told
+ * (sight_casting.c), or what was gone around is not closed, the point is not told, and its shadows
+ * are to be cut out face by face (sight_pieces.c). Invariant: as sight_pieces.c, but for how far
+ * shadows grow. [the rim of a union of convex polygons, edge by edge; derived here]
+ * SPDX-License-Identifier: MIT */
+#include "engine/sight_rims.h"
+#include "engine/sight_casting.h"
+
+/* A rim that does not come back to where it began within so much of the polygon's size has lost an
+ * edge, or has one too many. */
+static const double OPEN = 1e-9;
+
+/* The rim of what is seen, added edge by edge. */
+struct rim {
+    struct sight_eye eye;
+    struct casting cast;
+    double open; /* what is counted where edges end, less where they begin */
+};
+
+/* What of an edge lies outside of shadows: intervals of it that do not, in their order. */
+struct hidden_parts {
+    int count;
+    double low[SIGHT_BODIES], high[SIGHT_BODIES];
+};
+
+/* Narrows what of an edge is within a shadow, by how far its ends are outside of a line. */
+static void narrow(double g, double h, double *low, double *high)
+{
+    if (g > 0) {
+        const double t = h > 0 ? 1 : g / (g - h);
+        *low = t > *low ? t : *low;
+    } else if (h > 0) {
+        const double t = g / (g - h);
+        *high = t < *high ? t : *high;
+    }
+}
+
+static void add_hidden(struct hidden_parts *parts, double low, double high)
+{
+    int at = parts->count;
+    if (!(low < high))
+        return;
+    for (; at > 0 && parts->low[at - 1] > low; at--) {
+        parts->low[at] = parts->low[at - 1];
+        parts->high[at] = parts->high[at - 1];
+    }
+    parts->low[at] = low;
+    parts->high[at] = high;
+    parts->count++;
+}
+
+/* Counts a corner of the rim. What is counted where edges begin and where they end is the same,
+ * when they go around, whatever it is. If it were the place alone, two edges that are wrong could
+ * make up for each other, being as long; of this, which is curved and along no axis of theirs, only
+ * by chance. */
+static inline double count_corner(const struct casting *c, const double p[2])
+{
+    const double u = (p[0] - c->corner[0][0]) * c->per, v = (p[1] - c->corner[1][0]) * c->per;
+    return u * (1 + u * (0.61 + v)) + v * (0.43 + v * (0.74 + u));
+}
+
+/* Adds what is left of the edge from p to q; turned: from q to p. */
+static void add_rest(struct rim *rim, const double p[2], const double q[2],
+                     const struct hidden_parts *parts, int turned)
+{
+    double last = 0;
+    for (int i = 0; i <= parts->count; i++) {
+        const double end = i < parts->count ? parts->low[i] : 1;
+        if (end > last) {
+            double a[2], b[2];
+            for (int k = 0; k < 2; k++) {
+                a[k] = last > 0 ? p[k] + last * (q[k] - p[k]) : p[k];
+                b[k] = end < 1 ? p[k] + end * (q[k] - p[k]) : q[k];
+            }
+            sight_eye_edge(&rim->eye, turned ? b : a, turned ? a : b);
+            const double count = count_corner(&rim->cast, b) - count_corner(&rim->cast, a);
+            rim->open += turned ? -count : count;
+        }
+        if (i < parts->count && parts->high[i] > last)
+            last = parts->high[i];
+    }
+}
+
+/* Where on the edge from p to q a point of it is. */
+static double place_on(const double p[2], const double q[2], const double x[2])
+{
+    const double u = q[0] - p[0], v = q[1] - p[1];
+    return ((x[0] - p[0]) * u + (x[1] - p[1]) * v) / (u * u + v * v);
+}
+
+/* What is seen of the polygon's own side i. */
+static void add_own(struct rim *rim, const struct outline_cell *cell, int i)
+{
+    const struct casting *c = &rim->cast;
+    struct hidden_parts parts;
+    const double *p = cell->p[i], *q = cell->p[i + 1 < cell->n ? i + 1 : 0];
+    parts.count = 0;
+    for (int s = 0; s < c->count; s++) {
+        const struct body_shadow *shadow = &c->shadow[s];
+        double low = 1, high = 0;
+        for (int k = 0; k < shadow->n; k++)
+            if (shadow->by[k] == i) {
+                const double t0 = place_on(p, q, shadow->p[k]),
+                             t1 = place_on(p, q, shadow->p[k + 1 < shadow->n ? k + 1 : 0]);
+                low = t0 < low ? t0 : low;
+                high = t1 > high ? t1 : high;
+            }
+        add_hidden(&parts, low, high);
+    }
+    add_rest(rim, p, q, &parts, 0);
+}
+
+/* What is seen beside an edge from p to q of shadow `own`. */
+static void add_shadow(struct rim *rim, int own, const double p[2], const double q[2])
+{
+    const struct casting *c = &rim->cast;
+    struct hidden_parts parts;
+    parts.count = 0; /* no more of it is read */
+    for (int s = 0; s < c->count; s++) {
+        double low = 0, high = s == own ? 0 : 1;
+        for (int k = c->first[s]; k < c->first[s + 1] && low < high; k++) {
+            const struct body_line *other = &c->cut[k];
+            narrow(other->a * p[0] + other->b * p[1] - other->c,
+                   other->a * q[0] + other->b * q[1] - other->c, &low, &high);
+        }
+        add_hidden(&parts, low, high);
+    }
+    add_rest(rim, p, q, &parts, 1);
+}
+
+double sight_rims_past(const struct sight *sight, const double x[3], const double n[3], double up,
+                       const struct sight_bodies *bodies, double *whole)
+{
+    const struct outline_cell *cell = &sight->cell;
+    struct rim rim;
+    const struct casting *c = &rim.cast;
+    double from[3], at[3];
+    for (int k = 0; k < 3; k++)
+        from[k] = x[k] + up * n[k];
+    sight_eye_open(&rim.eye, sight, x, n);
+    sight_in_plane(&sight->raised, from, at);
+    *whole = rim.open = 0;
+    if (!(rim.eye.height > 0) || !(at[2] > 0))
+        return 0;
+    sight_casting_open(&rim.cast, bodies, cell, at);
+    for (int i = 0; i < bodies->count; i++) {
+        const enum rest rest =
+            sight_casting_add(&rim.cast, bodies, &bodies->body[i], cell, c->grow * (i + 1));
+        if (rest == REST_UNTOLD)
+            return -1;
+        if (rest == REST_ALL)
+            return sight_eye_factor(&rim.eye, whole);
+    }
+    if (c->count == 0) {
+        (void)sight_eye_factor(&rim.eye, whole);
+        return *whole;
+    }
+    for (int i = 0; i < cell->n; i++)
+        add_own(&rim, cell, i);
+    for (int s = 0; s < c->count; s++) {
+        const struct body_shadow *shadow = &c->shadow[s];
+        for (int i = 0; i < shadow->n; i++)
+            if (shadow->by[i] >= POLYGON_MAX)
+                add_shadow(&rim, s, shadow->p[i], shadow->p[i + 1 < shadow->n ? i + 1 : 0]);
+    }
+    const double seen = sight_eye_factor(&rim.eye, whole);
+    if (!(fabs(rim.open) <= OPEN))
+        return -1;
+    return seen < *whole ? seen : *whole;
+}
