@@ -127,6 +127,7 @@ shadows grow alike | runtime/engine/sight_rims.c | s/c->grow \* (i + 1)/0 * c->g
 short sides have directions | runtime/engine/sight_casting.c | s/SHORT = 1e-6/SHORT = 0/ | runtime/check_bodies
 shadows hide no others | runtime/engine/sight_rims.c | s/s == own ? 0 : 1;/s == own ? 0 : 0;/ | runtime/check_bodies
 nothing is seen from within | runtime/engine/sight_casting.c | s/body->foot ? REST_UNTOLD : REST_ALL/REST_ALL/ | runtime/check_bodies
+low points are told | runtime/engine/sight_rims.c | s/LOW = 10/LOW = 0/ | runtime/check_bodies
 open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
 plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/if (height > h->flat/if (height > 1e9/ | runtime/check_bodies

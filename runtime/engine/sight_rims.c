@@ -135,6 +135,10 @@ static void add_shadow(struct rim *rim, int own, const double p[2], const double
     add_rest(rim, p, q, &parts, 1);
 }
 
+/* How far a point is to be above the plane, in steps off its surface: lower down that step decides
+ * what is in the way. Chosen: a needle's shadows differed up to 8. */
+static const double LOW = 10;
+
 double sight_rims_past(const struct sight *sight, const double x[3], const double n[3], double up,
                        const struct sight_bodies *bodies, double *whole)
 {
@@ -149,6 +153,8 @@ double sight_rims_past(const struct sight *sight, const double x[3], const doubl
     *whole = rim.open = 0;
     if (!(rim.eye.height > 0) || !(at[2] > 0))
         return 0;
+    if (at[2] < LOW * up)
+        return -1;
     sight_casting_open(&rim.cast, bodies, cell, at);
     for (int i = 0; i < bodies->count; i++) {
         const enum rest rest =

@@ -353,6 +353,28 @@ START_TEST(test_within)
 }
 END_TEST
 
+/* A point that is hardly farther above the plane than it is raised off its own is not told. */
+START_TEST(test_low)
+{
+    static const double at[3] = {0.4, 0.4, 0.4},
+                        along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
+    struct scene s;
+    struct exchange_tree t;
+    struct seen low = {0}, high = {0};
+    open_squares(&s);
+    add_box(&s, at, along, 0);
+    open_tree(&t, &s);
+    const double up = t.host.ray_offset,
+                 x[2][3] = {{0.5, 0.5, 1 - 8 * up}, {0.5, 0.5, 1 - 20 * up}};
+    look(&t, s.face_count, &x[0], 1, 1, &low);
+    look(&t, s.face_count, &x[1], 1, 1, &high);
+    ck_assert_double_eq(low.untold, 1);
+    ck_assert_double_eq(high.untold, 0);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 /* Where a corner of what is looked at lies in a plane that it is cut along, it may be there twice,
  * and the side between has any direction: no box is beside that. */
 START_TEST(test_short_side)
@@ -434,6 +456,7 @@ int main(void)
     tcase_add_loop_test(tests, test_lattice, 0, 4);
     tcase_add_test(tests, test_turned);
     tcase_add_test(tests, test_within);
+    tcase_add_test(tests, test_low);
     tcase_add_test(tests, test_short_side);
     tcase_add_test(tests, test_which);
     return suite_failures(suite);
