@@ -66,7 +66,8 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
         goto fail;
     *cause = "out of memory";
     if (hierarchy_build_groups(&t->h, &t->plain, rays_host(t->rays)->flat) < 0
-        || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0)
+        || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0
+        || solids_open(&t->solids, &t->h, &t->mates) < 0)
         goto fail;
     t->host = *rays_host(t->rays);
     t->host.occluded = occluded;
@@ -91,6 +92,7 @@ void exchange_tree_close(struct exchange_tree *t)
     rays_close(t->rays);
     mates_close(&t->mates);
     bodies_close(&t->bodies);
+    solids_close(&t->solids);
     hierarchy_free(&t->h);
     hierarchy_free(&t->plain);
     memset(t, 0, sizeof *t);
