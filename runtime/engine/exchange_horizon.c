@@ -47,8 +47,9 @@ struct horizon_cell {
 };
 
 struct horizon {
-    int edges, cells;
+    int edges, own, cells;
     struct sight_edge_block edge[SIGHT_EDGES / SIGHT_LINES];
+    struct sight_edge_block of_face[SIGHT_EDGES / SIGHT_LINES]; /* own: from the face at hand */
     struct horizon_cell cell[HORIZON_SIDE];
     struct horizon_view view[POINTS];
 };
@@ -167,6 +168,46 @@ static int add_face(struct looking_past *l, const struct shaft *shaft, uint32_t 
     return add_foot(l->horizon, (const double(*)[3])corner, e->vertices, plane);
 }
 
+/* ---- those that a face may see as outlines */
+
+/* A lane of a block goes to the end of the face's own. */
+static void keep_edge(struct horizon *z, const struct sight_edge_block *from, int k)
+{
+    struct sight_edge_block *block = &z->of_face[z->own / SIGHT_LINES];
+    const int lane = z->own++ % SIGHT_LINES;
+    if (lane == 0)
+        memset(block, 0, sizeof *block);
+    for (int side = 0; side < 2; side++) {
+        for (int i = 0; i < 3; i++)
+            block->end[side][i][lane] = from->end[side][i][k];
+        for (int i = 0; i < 4; i++)
+            block->plane[side][i][lane] = from->plane[side][i][k];
+    }
+}
+
+/* The edges that are outlines from some point of a face: its points are seen from the same side as
+ * its corners, where these agree. */
+static void keep_edges(const struct looking_past *l, const struct element *e)
+{
+    struct horizon *z = l->horizon;
+    double corner[4][3];
+    for (int i = 0; i < e->vertices; i++) {
+        double x[3];
+        for (int k = 0; k < 3; k++)
+            x[k] = e->vertex[i][k] + l->tree->host.ray_offset * e->normal[k];
+        sight_in_plane(&l->sight.raised, x, corner[i]);
+    }
+    z->own = 0;
+    for (int at = 0; at < z->edges; at += SIGHT_LINES) {
+        const struct sight_edge_block *block = &z->edge[at / SIGHT_LINES];
+        int64_t turns[SIGHT_LINES];
+        sight_edges_turn(block, (const double(*)[3])corner, e->vertices, turns);
+        for (int k = 0; k < SIGHT_LINES; k++)
+            if (turns[k])
+                keep_edge(z, block, k);
+    }
+}
+
 /* ---- what a point sees of the rectangle */
 
 /* Does the ray from a point to the rectangle's middle meet the solid? */
@@ -217,8 +258,8 @@ static int look(const struct looking_past *l, const double n[3], struct horizon_
     view->lines = view->hidden = 0;
     if (!(from[2] > 0))
         return 0;
-    for (int at = 0; at < z->edges; at += SIGHT_LINES) {
-        const struct sight_edge_block *e = &z->edge[at / SIGHT_LINES];
+    for (int at = 0; at < z->own; at += SIGHT_LINES) {
+        const struct sight_edge_block *e = &z->of_face[at / SIGHT_LINES];
         struct sight_shadows s;
         sight_shadows_cast(e, from, cell, &s);
         for (int k = 0; k < SIGHT_LINES; k++) {
@@ -362,6 +403,7 @@ static void fill_row(struct looking_past *l, const struct element *e, struct sig
     int told = 1;
     face_rule_of(&rules.inside, e, 0);
     face_rule_of(&rules.rim, e, 1);
+    keep_edges(l, e);
     const int inside = rules.inside.count, points = inside + rules.rim.count;
     for (int i = 0; i < points && told; i++) {
         const struct face_rule *rule = i < inside ? &rules.inside : &rules.rim;
