@@ -63,7 +63,8 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
         *out = e < least ? e : least;
         return 0;
     }
-    if (r->depth || s->depth || (!is_proved(link) && !r->group && !s->group)) /* or a part of a face against a group */
+    if (r->depth || s->depth
+        || (!is_proved(link) && !r->group && !s->group)) /* or a part of a face against a group */
         return halves_block(p, pair, scratch->horizon, &scratch->sight, out);
     if (is_proved(link)) {
         clear_block(p, pair, scratch->sight.limits.tolerance, out);

@@ -268,8 +268,7 @@ static int look(const struct looking_past *l, const double n[3], struct horizon_
                 continue;
             for (int i = 0; i < cell->n; i++)
                 h[i] = s.a[k] * cell->p[i][0] + s.b[k] * cell->p[i][1] - s.c[k];
-            if (sight_runs_through(end, s.a[k], s.b[k], cell, h)
-                && !add_line(view, e, k, from, &s))
+            if (sight_runs_through(end, s.a[k], s.b[k], cell, h) && !add_line(view, e, k, from, &s))
                 return 0;
         }
     }

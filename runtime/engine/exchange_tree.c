@@ -41,7 +41,7 @@ static int candidates(const struct host *host, const struct shaft *shaft, int mo
     const struct exchange_tree *t = tree_of(host);
     struct found f = {.most = most, .elements = elements};
     hidden_start(&f.hidden, &t->h, &t->mates, shaft);
-    (void)candidates_walk(&t->h, shaft, host->ray_offset, add_found, &f);
+    (void)candidates_walk(&t->h, &t->solids, shaft, host->ray_offset, add_found, &f);
     return hidden_all(&f.hidden) ? HOST_HIDDEN : f.count;
 }
 

@@ -4,13 +4,15 @@
  * told edge by edge (engine/exchange_horizon.c), and what bends in where its edges are short leads
  * far astray. Most shells that bend in do so across an edge, which is asked first; the rest takes
  * every plane against every corner, once.
- * Invariant: a face is of one solid at most; a solid has no free edge, no bent face and no face
- * whose front looks inside.
+ * All of a solid lies behind the plane of each of its faces; a face that looks at something is
+ * known by its normal, to the last digit, wherever its plane is asked of. Invariant: a face is of
+ * one solid at most; a solid has no free edge, no bent face and no face whose front looks inside.
  * [a closed surface that each of its planes supports is its hull's]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/solids.h"
+#include "kernel/hash.h"
 
 /* Of how far the solid's corners are from where coordinates begin: outlines of groups are computed;
  * chosen. */
@@ -101,6 +103,72 @@ static double rounds_of(const struct shells_walk *w)
     return ROUNDS * far;
 }
 
+/* Clusters and groups whose faces are all of one solid. Returns which; of what has no children, it
+ * is known. */
+static uint32_t gather(struct solids *s, const struct hierarchy *h, uint32_t index)
+{
+    const struct element *e = &h->elements[index];
+    uint32_t all = 0;
+    if (s->of[index] || e->children == 0)
+        return s->of[index];
+    for (uint32_t c = 0; c < e->children; c++) {
+        const uint32_t of = gather(s, h, e->child + c);
+        all = c == 0 || of == all ? of : 0;
+    }
+    return s->of[index] = all;
+}
+
+/* Where a normal's faces are kept from on, of so many places, a power of two. */
+static uint32_t place_of(const double n[3], uint32_t places)
+{
+    uint64_t digits[3];
+    memcpy(digits, n, sizeof digits);
+    return (uint32_t)hash64(hash64(hash64(digits[0]) + digits[1]) + digits[2]) & (places - 1);
+}
+
+/* The place of a face with this normal; one that is free, if there is none. */
+static uint32_t find(const struct solids *s, const struct hierarchy *h, const double n[3])
+{
+    uint32_t at = place_of(n, s->places);
+    while (s->by_normal[at]
+           && memcmp(h->elements[s->by_normal[at] - 1].normal, n, 3 * sizeof *n) != 0)
+        at = (at + 1) & (s->places - 1);
+    return at;
+}
+
+/* Of faces with one normal, the first. */
+static int keep_normals(struct solids *s, const struct hierarchy *h)
+{
+    uint32_t faces = 0;
+    for (uint32_t i = 0; i < h->built; i++)
+        faces += s->of[i] != 0;
+    for (s->places = 2; s->places / 2 < faces;)
+        s->places *= 2;
+    s->by_normal = calloc(s->places, sizeof *s->by_normal);
+    if (!s->by_normal)
+        return -1;
+    for (uint32_t i = 0; i < h->built; i++)
+        if (s->of[i]) {
+            const uint32_t at = find(s, h, h->elements[i].normal);
+            s->by_normal[at] = s->by_normal[at] ? s->by_normal[at] : i + 1;
+        }
+    return 0;
+}
+
+uint32_t solids_behind(const struct solids *s, const struct hierarchy *h, const double n[3],
+                       const double (*points)[3], int count, double most)
+{
+    if (s->count == 0)
+        return 0;
+    const uint32_t face = s->by_normal[find(s, h, n)];
+    if (face == 0)
+        return 0;
+    for (int i = 0; i < count; i++)
+        if (!(height3(points[i], h->elements[face - 1].vertex[0], n) > -most))
+            return 0;
+    return s->of[face - 1];
+}
+
 int solids_open(struct solids *s, const struct hierarchy *h, const struct mates *mates)
 {
     const size_t room = (size_t)h->built + 1;
@@ -109,7 +177,7 @@ int solids_open(struct solids *s, const struct hierarchy *h, const struct mates 
     s->of = calloc(room, sizeof *s->of);
     w.faces = malloc(room * sizeof *w.faces);
     w.met = calloc(room, 1);
-    const int failed = !s->of || !w.faces || !w.met;
+    int failed = !s->of || !w.faces || !w.met;
     for (uint32_t i = 0; i < h->built && !failed; i++) {
         if (w.met[i] || mates->of[i][0] == NO_MATE || !follow(&w, i))
             continue;
@@ -120,6 +188,10 @@ int solids_open(struct solids *s, const struct hierarchy *h, const struct mates 
         for (uint32_t f = 0; f < w.count; f++)
             s->of[w.faces[f]] = s->count;
     }
+    if (!failed && s->count > 0) {
+        failed = keep_normals(s, h) < 0;
+        (void)gather(s, h, 0);
+    }
     free(w.faces);
     free(w.met);
     return failed ? -1 : 0;
@@ -128,5 +200,6 @@ int solids_open(struct solids *s, const struct hierarchy *h, const struct mates 
 void solids_close(struct solids *s)
 {
     free(s->of);
+    free(s->by_normal);
     memset(s, 0, sizeof *s);
 }
