@@ -130,6 +130,8 @@ nothing is seen from within | runtime/engine/sight_bodies.c | s/body->foot ? RES
 open rims are trusted | runtime/engine/sight_bodies.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
 plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/if (height > h->flat/if (height > 1e9/ | runtime/check_bodies
+dented balls are solid | runtime/hierarchy/solids.c | s/high > w->rounds/high > 1e9/ | runtime/check_bodies
+horizons have one side | runtime/engine/exchange_horizon.c | s/sign = over\[0\] > 0 ? 1 : -1/sign = 1/ | runtime/check_bodies
 END
 }
 
