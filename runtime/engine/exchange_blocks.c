@@ -57,14 +57,12 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
-    if (is_proved(link) && !r->group && !s->group
-        && (!scratch->sight.limits.many || r->depth || s->depth)) {
+    if (is_proved(link) && !r->group && !s->group) {
         double e = r->area * link_factor(pair, link), least = fmin(r->area, s->area);
         *out = e < least ? e : least;
         return 0;
     }
-    if (r->depth || s->depth
-        || (!is_proved(link) && !r->group && !s->group)) /* or a part of a face against a group */
+    if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */
         return halves_block(p, pair, scratch->horizon, &scratch->sight, out);
     if (is_proved(link)) {
         clear_block(p, pair, scratch->sight.limits.tolerance, out);
