@@ -140,7 +140,7 @@ static int compare_faces(const void *a, const void *b)
     return *x < *y ? -1 : *x > *y;
 }
 
-/* The edges of a face that may be outlines in the shaft; `front`: which end is in front of it. One
+/* The edges of a face that may be outlines in the shaft. One
  * that a face of the list has on either side is the first's. */
 static int add_face(struct looking_past *l, const struct shaft *shaft, uint32_t index)
 {
