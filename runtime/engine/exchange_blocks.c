@@ -15,13 +15,17 @@
 
 int exchange_scratch_open(struct exchange_scratch *s, const struct sight_limits *limits)
 {
-    return sight_scratch_open(&s->sight, limits) < 0 ? -1 : shadow_scratch_open(&s->shadow, TILE);
+    s->horizon = horizon_open();
+    return !s->horizon || sight_scratch_open(&s->sight, limits) < 0
+               ? -1
+               : shadow_scratch_open(&s->shadow, TILE);
 }
 
 void exchange_scratch_close(struct exchange_scratch *s)
 {
     sight_scratch_close(&s->sight);
     shadow_scratch_close(&s->shadow);
+    free(s->horizon);
 }
 
 /* The form factor of a link in clear view. Of whole faces in all its digits: the link keeps those
@@ -59,7 +63,7 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
         return 0;
     }
     if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */
-        return halves_block(p, pair, &scratch->sight, out);
+        return halves_block(p, pair, scratch->horizon, &scratch->sight, out);
     if (is_proved(link)) {
         clear_block(p, pair, scratch->sight.limits.tolerance, out);
         return 0;
@@ -72,7 +76,7 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
         return 0;
     }
     if (list.count > BLOCKERS_MAX)
-        return halves_block(p, pair, &scratch->sight, out);
+        return halves_block(p, pair, scratch->horizon, &scratch->sight, out);
     clear_block(p, pair, scratch->sight.limits.tolerance, out);
     return shadow_block(pair, &list, &scratch->shadow, &scratch->sight, out);
 }

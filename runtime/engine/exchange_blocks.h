@@ -5,6 +5,7 @@
 #define EXCHANGE_BLOCKS_H
 
 #include "engine/exchange_clear.h"
+#include "engine/exchange_horizon.h"
 #include "engine/exchange_shadow.h"
 #include "engine/exchange_sight.h"
 #include "engine/refine.h"
@@ -13,6 +14,7 @@
 struct exchange_scratch {
     struct shadow_scratch shadow;
     struct sight_scratch sight;
+    struct horizon *horizon;
 };
 
 /* Returns 0, or -1 when out of memory; close is fine then too. */

@@ -22,6 +22,7 @@
 struct halving {
     const struct exchange_faces *faces;
     const struct exchange_pair *whole;
+    struct horizon *horizon;
     struct sight_scratch *scratch;
     double *out;
     double most; /* error (m2) */
@@ -136,6 +137,19 @@ static void put_known(const struct halving *h, const struct half *r, const struc
     }
 }
 
+/* All pairs of two halves, if they are few, and one convex solid stands between. */
+static int is_past_solid(struct halving *h, const struct half *r, const struct half *s,
+                         const struct element *from, const struct element *to,
+                         const struct shaft *shaft, const struct sight_list *list)
+{
+    const struct exchange_pair pair = {h->whole->tree, h->whole->receiver, h->whole->emitter,
+                                       r->range, s->range};
+    const struct face_range *columns = &h->whole->columns;
+    return horizon_block(h->faces, &pair, from, to, shaft, list, h->horizon, h->scratch,
+                         place_of(h, r->range.from, s->range.from), columns->to - columns->from,
+                         &h->most);
+}
+
 /* The halves' pairs; what may stand between is of `among`, or, where this is NULL, anything. */
 static void fill_halves(struct halving *h, const struct half *r, const struct half *s,
                         const struct sight_list *among, uint32_t opens)
@@ -165,6 +179,8 @@ static void fill_halves(struct halving *h, const struct half *r, const struct ha
                 put_known(h, r, s, stands);
                 return;
             }
+            if (!parts && is_past_solid(h, r, s, &from, &to, &shaft, &own))
+                return;
             among = &own;
         }
     }
@@ -176,9 +192,9 @@ static void fill_halves(struct halving *h, const struct half *r, const struct ha
 }
 
 double halves_block(const struct exchange_faces *faces, const struct exchange_pair *pair,
-                    struct sight_scratch *scratch, double *out)
+                    struct horizon *horizon, struct sight_scratch *scratch, double *out)
 {
-    struct halving h = {faces, pair, scratch, out, 0};
+    struct halving h = {faces, pair, horizon, scratch, out, 0};
     const struct half r = {pair->receiver, pair->rows}, s = {pair->emitter, pair->columns};
     fill_halves(&h, &r, &s, NULL, UINT32_MAX);
     return h.most;

@@ -4,10 +4,11 @@
 #define EXCHANGE_HALVES_H
 
 #include "engine/exchange_clear.h"
+#include "engine/exchange_horizon.h"
 #include "engine/exchange_sight.h"
 
 /* out[rows][columns] (m2). Returns the largest error estimated of any (m2). */
 double halves_block(const struct exchange_faces *faces, const struct exchange_pair *pair,
-                    struct sight_scratch *scratch, double *out);
+                    struct horizon *horizon, struct sight_scratch *scratch, double *out);
 
 #endif

@@ -277,17 +277,23 @@ static void measure(struct looking *l, int at, int all, const uint32_t *list, in
     }
 }
 
-/* What the best quadratic leaves of what is hidden from a piece's points (m2). */
+double sight_rest(const struct face_fit *fit, const double *seen, const double *whole, double share,
+                  double clear)
+{
+    double hidden[2 * FACE_RULE], all = 0;
+    for (int i = 0; i < fit->count; i++) {
+        hidden[i] = seen[i] - share * whole[i];
+        all += whole[i] / fit->count;
+    }
+    return all > 0 ? face_fit_rest(fit, hidden) * clear / all : 0;
+}
+
+/* The same of a piece's points. */
 static double fit_rest(const struct face_fit *fit, const struct sight_node *node,
                        const double *seen, const double *whole)
 {
-    const double mean_share = node->clear > 0 ? node->points / node->clear : 0;
-    double hidden[2 * FACE_RULE], all = 0;
-    for (int i = 0; i < fit->count; i++) {
-        hidden[i] = seen[i] - mean_share * whole[i];
-        all += whole[i] / fit->count;
-    }
-    return all > 0 ? face_fit_rest(fit, hidden) * node->clear / all : 0;
+    return sight_rest(fit, seen, whole, node->clear > 0 ? node->points / node->clear : 0,
+                      node->clear);
 }
 
 /* How far a piece's points are from telling its exchange (m2): what the two rules differ by, or

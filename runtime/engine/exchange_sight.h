@@ -42,6 +42,11 @@ struct sight_limits sight_limits_for(double tolerance, uint32_t faces);
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits);
 void sight_scratch_close(struct sight_scratch *scratch);
 
+/* What the best quadratic leaves of what is hidden from points that see this share, of `clear` with
+ * nothing between (m2). */
+double sight_rest(const struct face_fit *fit, const double *seen, const double *whole, double share,
+                  double clear);
+
 /* A_r F_rs (m2), no more than if nothing stood between; *error: the error estimated (m2). `among`:
  * of a pair that holds this one; NULL: nobody has looked. */
 double sight_pair(const struct element *r, const struct element *s,

@@ -41,7 +41,7 @@ static int candidates(const struct host *host, const struct shaft *shaft, int mo
     const struct exchange_tree *t = tree_of(host);
     struct found f = {.most = most, .elements = elements};
     hidden_start(&f.hidden, &t->h, &t->mates, shaft);
-    (void)candidates_walk(&t->h, shaft, host->ray_offset, add_found, &f);
+    (void)candidates_walk(&t->h, &t->solids, shaft, host->ray_offset, add_found, &f);
     return hidden_all(&f.hidden) ? HOST_HIDDEN : f.count;
 }
 
@@ -66,7 +66,8 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
         goto fail;
     *cause = "out of memory";
     if (hierarchy_build_groups(&t->h, &t->plain, rays_host(t->rays)->flat) < 0
-        || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0)
+        || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0
+        || solids_open(&t->solids, &t->h, &t->mates) < 0)
         goto fail;
     t->host = *rays_host(t->rays);
     t->host.occluded = occluded;
@@ -91,6 +92,7 @@ void exchange_tree_close(struct exchange_tree *t)
     rays_close(t->rays);
     mates_close(&t->mates);
     bodies_close(&t->bodies);
+    solids_close(&t->solids);
     hierarchy_free(&t->h);
     hierarchy_free(&t->plain);
     memset(t, 0, sizeof *t);

@@ -6,6 +6,7 @@
 
 #include "hierarchy/group_hierarchy.h"
 #include "hierarchy/bodies.h"
+#include "hierarchy/solids.h"
 #include "visibility/rays.h"
 
 struct exchange_tree {
@@ -14,6 +15,7 @@ struct exchange_tree {
     struct hierarchy h;
     struct mates mates; /* of what stands in shafts */
     struct bodies bodies;
+    struct solids solids;
     /* not built where nothing is in the way: who asks what they meet builds them before */
     struct rays *rays;
     struct hierarchy plain; /* what they are built of; empty when they are */

@@ -77,7 +77,36 @@ TOOL void sight_shadows_body(const struct sight_edge_block *e, const double from
         out->crosses[k] = outline[k] & above[k] & below[k];
 }
 
+/* May an edge be an outline from within the hull of some points? Not where all of these are over
+ * both planes, or under both. */
+TOOL void sight_turn_body(const struct sight_edge_block *e, const double (*from)[3], int n,
+                          int64_t turns[SIGHT_LINES])
+{
+    int64_t over[SIGHT_LINES] = {0}, under[SIGHT_LINES] = {0};
+    for (int i = 0; i < n; i++) {
+        const double x = from[i][0], y = from[i][1], z = from[i][2];
+        for (int k = 0; k < SIGHT_LINES; k++) {
+            const double g = sight_over(e->plane[0], k, x, y, z),
+                         h = sight_over(e->plane[1], k, x, y, z);
+            over[k] |= (g > 0) | (h > 0);
+            under[k] |= !(g > 0) | !(h > 0);
+        }
+    }
+    for (int k = 0; k < SIGHT_LINES; k++)
+        turns[k] = over[k] & under[k];
+}
+
 #if LANES_CHOSEN
+LANES_AVX512 void sight_turn_8(const struct sight_edge_block *e, const double (*from)[3], int n,
+                               int64_t turns[SIGHT_LINES])
+{
+    sight_turn_body(e, from, n, turns);
+}
+LANES_AVX2 void sight_turn_4(const struct sight_edge_block *e, const double (*from)[3], int n,
+                             int64_t turns[SIGHT_LINES])
+{
+    sight_turn_body(e, from, n, turns);
+}
 LANES_AVX512 void sight_shadows_8(const struct sight_edge_block *e, const double from[3],
                                   const struct outline_cell *cell, struct sight_shadows *out)
 {
@@ -89,6 +118,12 @@ LANES_AVX2 void sight_shadows_4(const struct sight_edge_block *e, const double f
     sight_shadows_body(e, from, cell, out);
 }
 #endif
+
+static inline void sight_edges_turn(const struct sight_edge_block *e, const double (*from)[3],
+                                    int n, int64_t turns[SIGHT_LINES])
+{
+    LANES_RUN(lanes_width(), sight_turn_8, sight_turn_4, sight_turn_body, (e, from, n, turns));
+}
 
 static inline void sight_shadows_cast(const struct sight_edge_block *e, const double from[3],
                                       const struct outline_cell *cell, struct sight_shadows *out)

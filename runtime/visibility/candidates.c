@@ -11,6 +11,8 @@
 struct walk {
     const struct hierarchy *h;
     const struct shaft *shaft;
+    const uint32_t *of; /* solids, and those behind the ends; NULL: nobody knows of any */
+    uint32_t behind[2];
     double offset; /* how far the ends are off their surfaces (m) */
     int (*found)(void *context, uint32_t face);
     void *context;
@@ -99,6 +101,8 @@ static int walk_shaft(const struct walk *w, uint32_t index)
     const struct hierarchy *h = w->h;
     const struct element *e = &h->elements[index];
     double low[3], high[3];
+    if (w->of && w->of[index] && (w->of[index] == w->behind[0] || w->of[index] == w->behind[1]))
+        return 0;
     if (h->solid ? h->solid[index] : e->vertices)
         return !h->faces[h->order[h->range[index].from]].back
                        && candidates_meets(h, w->shaft, w->offset, index)
@@ -115,10 +119,17 @@ static int walk_shaft(const struct walk *w, uint32_t index)
     return 0;
 }
 
-int candidates_walk(const struct hierarchy *h, const struct shaft *shaft, double offset,
+int candidates_walk(const struct hierarchy *h, const struct solids *solids,
+                    const struct shaft *shaft, double offset,
                     int (*found)(void *context, uint32_t face), void *context)
 {
-    const struct walk w = {h, shaft, offset, found, context};
+    struct walk w = {.h = h, .shaft = shaft, .offset = offset, .found = found, .context = context};
+    for (int end = 0; end < 2 && solids; end++)
+        w.behind[end] =
+            solids_behind(solids, h, shaft->facing[end], (const double(*)[3])shaft->end[end],
+                          shaft->points[end], shaft->slack - offset);
+    if (w.behind[0] || w.behind[1])
+        w.of = solids->of;
     return walk_shaft(&w, 0);
 }
 
@@ -140,7 +151,7 @@ int candidates_find(const struct hierarchy *h, const struct shaft *shaft, double
                     uint32_t *faces)
 {
     struct list list = {most, 0, faces};
-    return candidates_walk(h, shaft, offset, add_face, &list) < 0 ? most + 1 : list.count;
+    return candidates_walk(h, NULL, shaft, offset, add_face, &list) < 0 ? most + 1 : list.count;
 }
 
 void candidates_corners(const struct hierarchy *h, uint32_t face, struct polygon *polygon)

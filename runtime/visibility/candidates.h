@@ -3,11 +3,13 @@
 #ifndef CANDIDATES_H
 #define CANDIDATES_H
 
-#include "hierarchy/hierarchy.h"
+#include "hierarchy/solids.h"
 
-/* Tells of the faces that meet the shaft, one by one, until it is answered -1. Returns 0, or -1
+/* `solids`: those of the hierarchy, of which whole ones are left alone; NULL: nobody knows of any.
+ * Tells of the faces that meet the shaft, one by one, until it is answered -1. Returns 0, or -1
  * then. What is told of is as in candidates_find. */
-int candidates_walk(const struct hierarchy *h, const struct shaft *shaft, double offset,
+int candidates_walk(const struct hierarchy *h, const struct solids *solids,
+                    const struct shaft *shaft, double offset,
                     int (*found)(void *context, uint32_t face), void *context);
 
 /* Does an element that is no `back` meet the shaft? `offset`: as below. */

@@ -1,11 +1,15 @@
-/* check_bodies.c - convex solids of a few faces: which faces make one; and what a point sees of a
- * square past them, by the rims of their shadows, against what is left when the shadow of each face
- * is cut out.
+/* check_bodies.c - convex solids: which faces make one; what a point sees of a square past those of
+ * a few faces, by the rims of their shadows, against what is left when the shadow of each face is
+ * cut out; and what pairs of faces exchange past one of many, by its outline, against pair by pair.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include "engine/exchange_horizon.h"
 #include "engine/sight_rims.h"
 #include "kernel/hash.h"
+#include "kernel/polygon_factor.h"
+#include "kernel/shaft.h"
 #include "scene/make_scene.h"
 #include "suite.h"
 
@@ -409,6 +413,114 @@ START_TEST(test_short_side)
 }
 END_TEST
 
+/* A ball of triangles, each side of an octahedron split so often; `pushed`: one corner of it in. */
+static void add_ball(struct scene *s, const double (*v)[3], int depth, int pushed)
+{
+    double p[3][3], middle[3][3], corner[3][3];
+    if (depth == 0) {
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++) {
+                const double size = pushed && v[i][2] > 0.999 ? 0.1 : 0.25;
+                p[i][k] = 0.5 + size * v[i][k] / length3(v[i]);
+            }
+        made_face(s, 0, 3, (const double(*)[3])p);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            middle[i][k] = 0.5 * (v[i][k] + v[(i + 1) % 3][k]);
+    for (int i = 0; i < 3; i++) {
+        memcpy(corner[0], v[i], sizeof *corner);
+        memcpy(corner[1], middle[i], sizeof *corner);
+        memcpy(corner[2], middle[(i + 2) % 3], sizeof *corner);
+        add_ball(s, (const double(*)[3])corner, depth - 1, pushed);
+    }
+    add_ball(s, (const double(*)[3])middle, depth - 1, pushed);
+}
+
+/* Four by four faces below, as many above, a ball of 512 triangles between. */
+static void open_ball(struct scene *s, int pushed)
+{
+    made_open(s);
+    made_material(s, 0.5, 0);
+    for (int i = 0; i < 16; i++)
+        made_quad(s, 0, i % 4 * 0.25, i / 4 * 0.25, 0, 0.25, 0, 0, 0, 0.25, 0);
+    for (int i = 0; i < 16; i++)
+        made_quad(s, 0, i % 4 * 0.25, i / 4 * 0.25, 1, 0, 0.25, 0, 0.25, 0, 0);
+    for (int f = 0; f < 8; f++) {
+        const double x = f & 1 ? 1 : -1, y = f & 2 ? 1 : -1, z = f & 4 ? 1 : -1;
+        const double v[2][3][3] = {{{x, 0, 0}, {0, y, 0}, {0, 0, z}},
+                                   {{0, y, 0}, {x, 0, 0}, {0, 0, z}}};
+        add_ball(s, v[!(x * y * z > 0)], 3, pushed);
+    }
+}
+
+/* The group of all faces with this one. */
+static const struct element *group_of(const struct exchange_tree *t, uint32_t face)
+{
+    const struct element *most = NULL;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < t->h.built; i++) {
+        const struct element *e = &t->h.elements[i];
+        const struct face_range range = hierarchy_range(&t->h, i);
+        int has = 0;
+        for (uint32_t p = range.from; p < range.to; p++)
+            has |= t->h.order[p] == face;
+        if (has && e->group && range.to - range.from > count) {
+            count = range.to - range.from;
+            most = e;
+        }
+    }
+    ck_assert_uint_eq(count, 16);
+    return most;
+}
+
+/* Pairs past a ball, all at once, are what they are one by one; of a ball with a dent they are not
+ * asked so. */
+START_TEST(test_horizon)
+{
+    struct scene s;
+    struct exchange_tree t;
+    struct exchange_faces faces;
+    struct sight_scratch scratch;
+    struct sight_list list;
+    struct shaft shaft;
+    double values[16][16], most = 0, part = 0;
+    open_ball(&s, _i);
+    open_tree(&t, &s);
+    const struct sight_limits limits = sight_limits_for(3e-4, s.face_count);
+    const struct element *r = group_of(&t, 0), *e = group_of(&t, 16);
+    const struct exchange_pair pair = {&t, r, e,
+                                       hierarchy_range(&t.h, (uint32_t)(r - t.h.elements)),
+                                       hierarchy_range(&t.h, (uint32_t)(e - t.h.elements))};
+    struct horizon *horizon = horizon_open();
+    ck_assert_ptr_nonnull(horizon);
+    ck_assert_int_eq(exchange_faces_open(&faces, &t), 0);
+    ck_assert_int_eq(sight_scratch_open(&scratch, &limits), 0);
+    ck_assert_int_eq(shaft_open(&shaft, r, e, &t.host), 1);
+    sight_list_find(&list, &t, &shaft);
+    ck_assert_uint_eq(t.solids.count, _i ? 0 : 1);
+    ck_assert_int_eq(
+        horizon_block(&faces, &pair, r, e, &shaft, &list, horizon, &scratch, values[0], 16, &most),
+        !_i);
+    for (uint32_t i = 0; i < 16 && !_i; i++)
+        for (uint32_t j = 0; j < 16; j++) {
+            const struct element *a = exchange_tree_face(&t, pair.rows.from + i),
+                                 *b = exchange_tree_face(&t, pair.columns.from + j);
+            double error;
+            const double one = sight_pair(a, b, &t, NULL, &scratch, &error);
+            ck_assert_double_le(fabs(values[i][j] - one), 2e-4 * fmax(one, limits.floor * a->area));
+            part += one < 0.9 * a->area * polygon_factor(a, b, 1) && one > 0;
+        }
+    ck_assert_double_ge(part, _i ? 0 : 32);
+    free(horizon);
+    sight_scratch_close(&scratch);
+    exchange_faces_close(&faces);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 /* A box is one, and an octahedron; one without a lid, one inside out, one that is pushed in and a
  * plate of two faces are none; nor are two boxes that share an edge. */
 START_TEST(test_which)
@@ -459,5 +571,6 @@ int main(void)
     tcase_add_test(tests, test_low);
     tcase_add_test(tests, test_short_side);
     tcase_add_test(tests, test_which);
+    tcase_add_loop_test(tests, test_horizon, 0, 2);
     return suite_failures(suite);
 }

@@ -1,0 +1,205 @@
+/* solids.c - convex solids of any number of faces.
+ *
+ * As bodies.c, but of no corner in front of a plane by more than rounding: of a mesh an outline is
+ * told edge by edge (engine/exchange_horizon.c), and what bends in where its edges are short leads
+ * far astray. Most shells that bend in do so across an edge, which is asked first; the rest takes
+ * every plane against every corner, once.
+ * All of a solid lies behind the plane of each of its faces; a face that looks at something is
+ * known by its normal, to the last digit, wherever its plane is asked of. Invariant: a face is of
+ * one solid at most; a solid has no free edge, no bent face and no face whose front looks inside.
+ * [a closed surface that each of its planes supports is its hull's]
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "hierarchy/solids.h"
+#include "kernel/hash.h"
+
+/* Of how far the solid's corners are from where coordinates begin: outlines of groups are computed;
+ * chosen. */
+static const double ROUNDS = 1e-12;
+
+/* Shells at work. */
+struct shells_walk {
+    const struct hierarchy *h;
+    const struct mates *mates;
+    uint32_t *faces; /* [count]: of the shell at hand */
+    uint32_t count;
+    unsigned char *met; /* [built] */
+    double rounds;      /* of the shell at hand (m) */
+};
+
+/* The faces that follow each other from one on, all of them. Returns 0 when some edge is free, or
+ * a front looks inside where its neighbour's looks outside. */
+static int follow(struct shells_walk *w, uint32_t from)
+{
+    int closed = 1;
+    w->faces[0] = from;
+    w->count = 1;
+    w->met[from] = 1;
+    for (uint32_t at = 0; at < w->count; at++)
+        for (int i = 0; i < w->h->elements[w->faces[at]].vertices; i++) {
+            const int64_t mate = w->mates->of[w->faces[at]][i];
+            if (mate == NO_MATE || mate % 2) {
+                closed = 0;
+            } else if (!w->met[mate / 2]) {
+                w->met[mate / 2] = 1;
+                w->faces[w->count++] = (uint32_t)(mate / 2);
+            }
+        }
+    return closed;
+}
+
+/* How far the corners of a face reach in front of a plane, and behind. */
+static void reach(const struct element *plane, const struct element *e, double *high, double *low)
+{
+    for (int k = 0; k < e->vertices; k++) {
+        const double height = height3(e->vertex[k], plane->vertex[0], plane->normal);
+        *high = height > *high ? height : *high;
+        *low = height < *low ? height : *low;
+    }
+}
+
+/* Is every face flat, and no neighbour of it in front of its plane? */
+static int bends_out(const struct shells_walk *w)
+{
+    for (uint32_t f = 0; f < w->count; f++) {
+        const struct element *plane = &w->h->elements[w->faces[f]];
+        double high = 0, low = 0, deep = 0;
+        reach(plane, plane, &high, &low);
+        if (high > w->rounds || low < -w->rounds)
+            return 0;
+        for (int i = 0; i < plane->vertices; i++)
+            reach(plane, &w->h->elements[w->mates->of[w->faces[f]][i] / 2], &high, &deep);
+        if (high > w->rounds)
+            return 0;
+    }
+    return 1;
+}
+
+/* Does no corner lie in front of a plane, and some behind each by more than faces reach off theirs?
+ * Else points in the plane of a plate were inside. */
+static int is_convex(const struct shells_walk *w)
+{
+    for (uint32_t f = 0; f < w->count; f++) {
+        const struct element *plane = &w->h->elements[w->faces[f]];
+        double high = 0, low = 0;
+        for (uint32_t g = 0; g < w->count && !(high > w->rounds); g++)
+            reach(plane, &w->h->elements[w->faces[g]], &high, &low);
+        if (high > w->rounds || !(low < -8 * w->h->flat))
+            return 0;
+    }
+    return 1;
+}
+
+static double rounds_of(const struct shells_walk *w)
+{
+    double far = 0;
+    for (uint32_t f = 0; f < w->count; f++) {
+        const struct element *e = &w->h->elements[w->faces[f]];
+        for (int i = 0; i < e->vertices; i++)
+            for (int k = 0; k < 3; k++)
+                far = fabs(e->vertex[i][k]) > far ? fabs(e->vertex[i][k]) : far;
+    }
+    return ROUNDS * far;
+}
+
+/* Clusters and groups whose faces are all of one solid. Returns which; of what has no children, it
+ * is known. */
+static uint32_t gather(struct solids *s, const struct hierarchy *h, uint32_t index)
+{
+    const struct element *e = &h->elements[index];
+    uint32_t all = 0;
+    if (s->of[index] || e->children == 0)
+        return s->of[index];
+    for (uint32_t c = 0; c < e->children; c++) {
+        const uint32_t of = gather(s, h, e->child + c);
+        all = c == 0 || of == all ? of : 0;
+    }
+    return s->of[index] = all;
+}
+
+/* Where a normal's faces are kept from on, of so many places, a power of two. */
+static uint32_t place_of(const double n[3], uint32_t places)
+{
+    uint64_t digits[3];
+    memcpy(digits, n, sizeof digits);
+    return (uint32_t)hash64(hash64(hash64(digits[0]) + digits[1]) + digits[2]) & (places - 1);
+}
+
+/* The place of a face with this normal; one that is free, if there is none. */
+static uint32_t find(const struct solids *s, const struct hierarchy *h, const double n[3])
+{
+    uint32_t at = place_of(n, s->places);
+    while (s->by_normal[at]
+           && memcmp(h->elements[s->by_normal[at] - 1].normal, n, 3 * sizeof *n) != 0)
+        at = (at + 1) & (s->places - 1);
+    return at;
+}
+
+/* Of faces with one normal, the first. */
+static int keep_normals(struct solids *s, const struct hierarchy *h)
+{
+    uint32_t faces = 0;
+    for (uint32_t i = 0; i < h->built; i++)
+        faces += s->of[i] != 0;
+    for (s->places = 2; s->places / 2 < faces;)
+        s->places *= 2;
+    s->by_normal = calloc(s->places, sizeof *s->by_normal);
+    if (!s->by_normal)
+        return -1;
+    for (uint32_t i = 0; i < h->built; i++)
+        if (s->of[i]) {
+            const uint32_t at = find(s, h, h->elements[i].normal);
+            s->by_normal[at] = s->by_normal[at] ? s->by_normal[at] : i + 1;
+        }
+    return 0;
+}
+
+uint32_t solids_behind(const struct solids *s, const struct hierarchy *h, const double n[3],
+                       const double (*points)[3], int count, double most)
+{
+    if (s->count == 0)
+        return 0;
+    const uint32_t face = s->by_normal[find(s, h, n)];
+    if (face == 0)
+        return 0;
+    for (int i = 0; i < count; i++)
+        if (!(height3(points[i], h->elements[face - 1].vertex[0], n) > -most))
+            return 0;
+    return s->of[face - 1];
+}
+
+int solids_open(struct solids *s, const struct hierarchy *h, const struct mates *mates)
+{
+    const size_t room = (size_t)h->built + 1;
+    struct shells_walk w = {.h = h, .mates = mates};
+    memset(s, 0, sizeof *s);
+    s->of = calloc(room, sizeof *s->of);
+    w.faces = malloc(room * sizeof *w.faces);
+    w.met = calloc(room, 1);
+    int failed = !s->of || !w.faces || !w.met;
+    for (uint32_t i = 0; i < h->built && !failed; i++) {
+        if (w.met[i] || mates->of[i][0] == NO_MATE || !follow(&w, i))
+            continue;
+        w.rounds = rounds_of(&w);
+        if (!bends_out(&w) || !is_convex(&w))
+            continue;
+        s->count++;
+        for (uint32_t f = 0; f < w.count; f++)
+            s->of[w.faces[f]] = s->count;
+    }
+    if (!failed && s->count > 0) {
+        failed = keep_normals(s, h) < 0;
+        (void)gather(s, h, 0);
+    }
+    free(w.faces);
+    free(w.met);
+    return failed ? -1 : 0;
+}
+
+void solids_close(struct solids *s)
+{
+    free(s->of);
+    free(s->by_normal);
+    memset(s, 0, sizeof *s);
+}
