@@ -98,21 +98,9 @@ static void plane_of(const struct element *e, const struct outline_frame *f, dou
 static int add_edge(struct horizon *z, const double p[3], const double q[3], const double left[4],
                     const double right[4])
 {
-    struct sight_edge_block *block = &z->edge[z->edges / SIGHT_LINES];
-    const int lane = z->edges % SIGHT_LINES;
     if (z->edges == SIGHT_EDGES)
         return -1;
-    if (lane == 0)
-        memset(block, 0, sizeof *block);
-    for (int k = 0; k < 3; k++) {
-        block->end[0][k][lane] = p[k];
-        block->end[1][k][lane] = q[k];
-    }
-    for (int k = 0; k < 4; k++) {
-        block->plane[0][k][lane] = left[k];
-        block->plane[1][k][lane] = right[k];
-    }
-    z->edges++;
+    sight_edge_put(z->edge, z->edges++, p, q, left, right);
     return 0;
 }
 
@@ -140,8 +128,8 @@ static int compare_faces(const void *a, const void *b)
     return *x < *y ? -1 : *x > *y;
 }
 
-/* The edges of a face that may be outlines in the shaft. One
- * that a face of the list has on either side is the first's. */
+/* The edges of a face that may be outlines in the shaft. One that a face of the list has on either
+ * side is the first's. */
 static int add_face(struct looking_past *l, const struct shaft *shaft, uint32_t index)
 {
     const struct exchange_tree *t = l->tree;

@@ -162,21 +162,9 @@ static void plane_of(const struct sight_between *b, int at, double plane[4])
 static int add_edge(struct sight_between *b, const double p[3], const double q[3],
                     const double planes[2][4])
 {
-    struct sight_edge_block *block = &b->edge[b->edges / SIGHT_LINES];
-    const int lane = b->edges % SIGHT_LINES;
     if (b->edges == SIGHT_EDGES)
         return -1;
-    if (lane == 0)
-        memset(block, 0, sizeof *block);
-    for (int k = 0; k < 3; k++) {
-        block->end[0][k][lane] = p[k];
-        block->end[1][k][lane] = q[k];
-    }
-    for (int k = 0; k < 4; k++) {
-        block->plane[0][k][lane] = planes[0][k];
-        block->plane[1][k][lane] = planes[1][k];
-    }
-    b->edges++;
+    sight_edge_put(b->edge, b->edges++, p, q, planes[0], planes[1]);
     return 0;
 }
 

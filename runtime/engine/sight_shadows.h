@@ -6,6 +6,7 @@
 #ifndef SIGHT_SHADOWS_H
 #define SIGHT_SHADOWS_H
 
+#include <string.h>
 #include "kernel/lanes.h"
 #include "kernel/outline.h"
 
@@ -17,6 +18,26 @@ enum { SIGHT_LINES = 8 };
 struct sight_edge_block {
     double end[2][3][SIGHT_LINES], plane[2][4][SIGHT_LINES];
 };
+
+/* Put an edge from p to q, between two planes, in a place: the first of each block before its
+ * others.
+ */
+static inline void sight_edge_put(struct sight_edge_block *edges, int at, const double p[3],
+                                  const double q[3], const double left[4], const double right[4])
+{
+    struct sight_edge_block *block = &edges[at / SIGHT_LINES];
+    const int lane = at % SIGHT_LINES;
+    if (lane == 0)
+        memset(block, 0, sizeof *block);
+    for (int k = 0; k < 3; k++) {
+        block->end[0][k][lane] = p[k];
+        block->end[1][k][lane] = q[k];
+    }
+    for (int k = 0; k < 4; k++) {
+        block->plane[0][k][lane] = left[k];
+        block->plane[1][k][lane] = right[k];
+    }
+}
 
 /* Their shadows in the plane, and the lines these are part of: on them a u + b v = c. */
 struct sight_shadows {

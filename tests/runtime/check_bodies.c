@@ -10,7 +10,7 @@
 #include "kernel/hash.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/shaft.h"
-#include "scene/make_scene.h"
+#include "runtime/two_squares.h"
 #include "suite.h"
 
 static double chance(uint64_t *state)
@@ -62,26 +62,6 @@ static void add_octahedron(struct scene *s, const double c[3], double size, doub
                                 {p[2][0], p[2][1], p[2][2]}};
         made_face(s, 0, 3, (const double(*)[3])((x * y > 0) == (upper != 0) ? p : q));
     }
-}
-
-/* Two squares that face each other at a distance of their side: faces 0 and 1. */
-static void open_squares(struct scene *s)
-{
-    made_open(s);
-    made_material(s, 0.5, 0);
-    made_quad(s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-    made_quad(s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
-}
-
-static void open_tree(struct exchange_tree *t, const struct scene *s)
-{
-    const char *cause;
-    ck_assert_int_eq(exchange_tree_open(t, s->faces, s->face_count, 1, &cause), 0);
-}
-
-static const struct element *face_of(const struct exchange_tree *t, uint32_t face)
-{
-    return &t->h.elements[t->h.face_element[face]];
 }
 
 /* Three edges of a box of any size, turned by chance; right-handed. */

@@ -10,7 +10,7 @@
 #include "kernel/hash.h"
 #include "kernel/lambert.h"
 #include "kernel/shaft.h"
-#include "scene/make_scene.h"
+#include "runtime/two_squares.h"
 #include "suite.h"
 #include "terms/visibility.h"
 #include "util/oracles.h"
@@ -63,27 +63,6 @@ static void add_ball(struct scene *s, const double c[3], double radius, double d
 }
 
 static const int no_gap[2] = {-1, -1};
-
-/* Two squares that face each other at a distance of their side: faces 0 and 1. */
-static void open_squares(struct scene *s)
-{
-    made_open(s);
-    made_material(s, 0.5, 0);
-    made_quad(s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-    made_quad(s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
-}
-
-static void open_tree(struct exchange_tree *t, const struct scene *s)
-{
-    const char *cause;
-    ck_assert_int_eq(exchange_tree_open(t, s->faces, s->face_count, 1, &cause), 0);
-}
-
-/* The face that was made at a place. */
-static const struct element *face_of(const struct exchange_tree *t, uint32_t face)
-{
-    return &t->h.elements[t->h.face_element[face]];
-}
 
 static int compare_faces(const void *a, const void *b)
 {
