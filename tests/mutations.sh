@@ -131,6 +131,7 @@ low points are told | runtime/engine/sight_rims.c | s/LOW = 10/LOW = 0/ | runtim
 open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
 plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/if (height > h->flat/if (height > 1e9/ | runtime/check_bodies
+great icosahedra are solid | runtime/hierarchy/solids.c | s/if (w->met\[index\] == AT_HAND)/if (0)/ | runtime/check_bodies
 dented balls are solid | runtime/hierarchy/solids.c | s/high > w->rounds/high > 1e9/ | runtime/check_bodies
 horizons have one side | runtime/engine/exchange_horizon.c | s/sign = over\[0\] > 0 ? 1 : -1/sign = 1/ | runtime/check_bodies
 END

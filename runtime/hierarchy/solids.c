@@ -2,13 +2,14 @@
  *
  * As bodies.c, but of no corner in front of a plane by more than rounding: of a mesh an outline is
  * told edge by edge (engine/exchange_horizon.c), and what bends in where its edges are short leads
- * far astray. Most shells that bend in do so across an edge, which is asked first; the rest takes
- * every plane against every corner, once.
+ * far astray. Most shells that bend in do so across an edge, which is asked first; then of every
+ * plane whether any corner lies in front of it.
  * All of a solid lies behind the plane of each of its faces; a face that looks at something is
  * known by its normal, to the last digit, wherever its plane is asked of. Invariant: a face is of
  * one solid at most; a solid has no free edge, no bent face and no face whose front looks inside.
  * [a closed surface that each of its planes supports is its hull's]
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/solids.h"
@@ -18,14 +19,16 @@
  * chosen. */
 static const double ROUNDS = 1e-12;
 
+enum { MET = 1, AT_HAND };
+
 /* Shells at work. */
 struct shells_walk {
     const struct hierarchy *h;
     const struct mates *mates;
     uint32_t *faces; /* [count]: of the shell at hand */
     uint32_t count;
-    unsigned char *met; /* [built] */
-    double rounds;      /* of the shell at hand (m) */
+    unsigned char *met;             /* [built]: MET, or AT_HAND */
+    double rounds, low[3], high[3]; /* of the shell at hand (m); its box */
 };
 
 /* The faces that follow each other from one on, all of them. Returns 0 when some edge is free, or
@@ -35,14 +38,14 @@ static int follow(struct shells_walk *w, uint32_t from)
     int closed = 1;
     w->faces[0] = from;
     w->count = 1;
-    w->met[from] = 1;
+    w->met[from] = AT_HAND;
     for (uint32_t at = 0; at < w->count; at++)
         for (int i = 0; i < w->h->elements[w->faces[at]].vertices; i++) {
             const int64_t mate = w->mates->of[w->faces[at]][i];
             if (mate == NO_MATE || mate % 2) {
                 closed = 0;
             } else if (!w->met[mate / 2]) {
-                w->met[mate / 2] = 1;
+                w->met[mate / 2] = AT_HAND;
                 w->faces[w->count++] = (uint32_t)(mate / 2);
             }
         }
@@ -76,31 +79,78 @@ static int bends_out(const struct shells_walk *w)
     return 1;
 }
 
-/* Does no corner lie in front of a plane, and some behind each by more than faces reach off theirs?
- * Else points in the plane of a plate were inside. */
+/* Has the shell at hand a corner in front of a plane, of its faces below an element? Boxes that are
+ * beside the shell, or behind the plane, are not looked into: a plane of a ball meets few. */
+static int has_in_front(const struct shells_walk *w, const struct element *plane, uint32_t index)
+{
+    const struct element *e = &w->h->elements[index];
+    double high = 0, low = 0, most = 0;
+    if (!e->children) {
+        if (w->met[index] == AT_HAND)
+            reach(plane, e, &high, &low);
+        return high > w->rounds;
+    }
+    for (int k = 0; k < 3 && !e->vertices; k++) {
+        if (e->vertex[0][k] > w->high[k] || e->vertex[1][k] < w->low[k])
+            return 0;
+        most += fmax(plane->normal[k] * (e->vertex[0][k] - plane->vertex[0][k]),
+                     plane->normal[k] * (e->vertex[1][k] - plane->vertex[0][k]));
+    }
+    if (!e->vertices && most <= w->rounds / 2) /* rounding of the sum is far less */
+        return 0;
+    for (uint32_t c = 0; c < e->children; c++)
+        if (has_in_front(w, plane, e->child + c))
+            return 1;
+    return 0;
+}
+
+/* Has the shell a corner behind a plane by more than faces reach off theirs? Looked for from the
+ * shell's other side on. */
+static int has_behind(const struct shells_walk *w, const struct element *plane, uint32_t from)
+{
+    double high = 0, low = 0;
+    for (uint32_t g = 0; g < w->count && !(low < -8 * w->h->flat); g++)
+        reach(plane, &w->h->elements[w->faces[(from + g) % w->count]], &high, &low);
+    return low < -8 * w->h->flat;
+}
+
+/* Does no corner lie in front of a plane, and some behind each? Else points in the plane of a plate
+ * were inside. */
 static int is_convex(const struct shells_walk *w)
 {
     for (uint32_t f = 0; f < w->count; f++) {
         const struct element *plane = &w->h->elements[w->faces[f]];
-        double high = 0, low = 0;
-        for (uint32_t g = 0; g < w->count && !(high > w->rounds); g++)
-            reach(plane, &w->h->elements[w->faces[g]], &high, &low);
-        if (high > w->rounds || !(low < -8 * w->h->flat))
+        if (!has_behind(w, plane, f + w->count / 2) || has_in_front(w, plane, 0))
             return 0;
     }
     return 1;
 }
 
-static double rounds_of(const struct shells_walk *w)
+/* The box of the shell at hand, and what rounding is in it. */
+static void measure(struct shells_walk *w)
 {
     double far = 0;
+    for (int k = 0; k < 3; k++) {
+        w->low[k] = INFINITY;
+        w->high[k] = -INFINITY;
+    }
     for (uint32_t f = 0; f < w->count; f++) {
         const struct element *e = &w->h->elements[w->faces[f]];
         for (int i = 0; i < e->vertices; i++)
-            for (int k = 0; k < 3; k++)
-                far = fabs(e->vertex[i][k]) > far ? fabs(e->vertex[i][k]) : far;
+            for (int k = 0; k < 3; k++) {
+                w->low[k] = fmin(w->low[k], e->vertex[i][k]);
+                w->high[k] = fmax(w->high[k], e->vertex[i][k]);
+                far = fmax(far, fabs(e->vertex[i][k]));
+            }
     }
-    return ROUNDS * far;
+    w->rounds = ROUNDS * far;
+}
+
+/* Let the faces at hand be some of those that have been. */
+static void put_away(const struct shells_walk *w)
+{
+    for (uint32_t f = 0; f < w->count; f++)
+        w->met[w->faces[f]] = MET;
 }
 
 /* Clusters and groups whose faces are all of one solid. Returns which; of what has no children, it
@@ -179,14 +229,16 @@ int solids_open(struct solids *s, const struct hierarchy *h, const struct mates 
     w.met = calloc(room, 1);
     int failed = !s->of || !w.faces || !w.met;
     for (uint32_t i = 0; i < h->built && !failed; i++) {
-        if (w.met[i] || mates->of[i][0] == NO_MATE || !follow(&w, i))
+        if (w.met[i] || mates->of[i][0] == NO_MATE)
             continue;
-        w.rounds = rounds_of(&w);
-        if (!bends_out(&w) || !is_convex(&w))
-            continue;
-        s->count++;
-        for (uint32_t f = 0; f < w.count; f++)
-            s->of[w.faces[f]] = s->count;
+        const int closed = follow(&w, i);
+        measure(&w);
+        if (closed && bends_out(&w) && is_convex(&w)) {
+            s->count++;
+            for (uint32_t f = 0; f < w.count; f++)
+                s->of[w.faces[f]] = s->count;
+        }
+        put_away(&w);
     }
     if (!failed && s->count > 0) {
         failed = keep_normals(s, h) < 0;

@@ -536,6 +536,52 @@ START_TEST(test_which)
 }
 END_TEST
 
+/* The icosahedron between the squares; the great one joins the same corners the long way, bends out
+ * across each edge, and runs through itself: it is no solid. */
+START_TEST(test_great)
+{
+    static const double golden = 1.6180339887498949;
+    double corner[12][3];
+    for (int i = 0; i < 12; i++) {
+        const int axis = i / 4;
+        corner[i][axis] = 0.5;
+        corner[i][(axis + 1) % 3] = 0.5 + (i & 1 ? 0.1 : -0.1);
+        corner[i][(axis + 2) % 3] = 0.5 + (i & 2 ? 0.1 : -0.1) * golden;
+    }
+    const double side = 0.2 * (_i ? golden : 1);
+    struct scene s;
+    struct exchange_tree t;
+    uint32_t faces = 0;
+    open_squares(&s);
+    for (int i = 0; i < 12; i++)
+        for (int j = i + 1; j < 12; j++)
+            for (int k = j + 1; k < 12; k++) {
+                double a[3], b[3], c[3], n[3], out[3], p[3][3];
+                sub3(a, corner[j], corner[i]);
+                sub3(b, corner[k], corner[i]);
+                sub3(c, corner[k], corner[j]);
+                if (fabs(length3(a) - side) + fabs(length3(b) - side) + fabs(length3(c) - side)
+                    > 1e-9)
+                    continue;
+                cross3(n, a, b);
+                for (int x = 0; x < 3; x++)
+                    out[x] = corner[i][x] - 0.5;
+                const int turned = dot3(n, out) < 0;
+                memcpy(p[0], corner[i], sizeof p[0]);
+                memcpy(p[1], corner[turned ? k : j], sizeof p[1]);
+                memcpy(p[2], corner[turned ? j : k], sizeof p[2]);
+                made_face(&s, 0, 3, (const double(*)[3])p);
+                faces++;
+            }
+    ck_assert_uint_eq(faces, 20);
+    open_tree(&t, &s);
+    ck_assert_uint_eq(t.solids.count, _i ? 0 : 1);
+    ck_assert_int_eq(t.bodies.of[t.h.face_element[2]] != 0, !_i);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("bodies");
@@ -548,6 +594,7 @@ int main(void)
     tcase_add_loop_test(tests, test_lattice, 0, 4);
     tcase_add_test(tests, test_turned);
     tcase_add_test(tests, test_within);
+    tcase_add_loop_test(tests, test_great, 0, 2);
     tcase_add_test(tests, test_low);
     tcase_add_test(tests, test_short_side);
     tcase_add_test(tests, test_which);
