@@ -310,6 +310,7 @@ START_TEST(test_turned)
             x[i][2] = 0;
         }
         look(&t, s.face_count, (const double(*)[3])x, 40, 2, &seen);
+        exchange_tree_close(&t);
         made_close(&s);
     }
     ck_assert_double_lt(seen.most, 1e-8);
