@@ -40,10 +40,10 @@ static int split_neighbours(struct hierarchy *h, uint32_t leaf)
     return 0;
 }
 
-/* Of the elements from `from` to `to`: those that are covered in part are split, and beside those
- * that are new neighbours are. Returns 0, or -1 when out of memory. */
-static int split_some(struct hierarchy *h, const double *uncovered, uint32_t from, uint32_t to,
-                      int are_new)
+/* Of the elements from `from` to `to`: those that are covered in part are split, and, unless they
+ * are the ones that links made, from 0 on, their coarser neighbours. Returns 0, or -1 when out of
+ * memory. */
+static int split_some(struct hierarchy *h, const double *uncovered, uint32_t from, uint32_t to)
 {
     const double most = COVERED_SHARE * h->elements[0].area;
     for (uint32_t i = from; i < to; i++) {
@@ -53,7 +53,7 @@ static int split_some(struct hierarchy *h, const double *uncovered, uint32_t fro
             continue;
         if (is_edge && e->area > most && hierarchy_split(h, i) < 0)
             return -1;
-        if (are_new && split_neighbours(h, i) < 0)
+        if (from > 0 && split_neighbours(h, i) < 0)
             return -1;
     }
     return 0;
@@ -67,7 +67,7 @@ int covered_leaves(struct solve *s)
         return 0;
     do {
         to = h->count;
-        const int failed = split_some(h, s->operator.uncovered, from, to, from > 0) < 0;
+        const int failed = split_some(h, s->operator.uncovered, from, to) < 0;
         if (ranks_any(s->problem.options.ranks, failed) || detail_light(s, to) < 0)
             return -1;
         from = to;

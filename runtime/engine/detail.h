@@ -18,11 +18,11 @@ int detail_merge(struct solve *s, uint32_t first);
 /* Split them until none is larger than PLACE_SHARE of the scene's area; the same holds. */
 int detail_places(struct solve *s);
 
-/* Room for the elements made by others since there were `first`, and their light: the same holds.
- * Returns 0, or -1 when out of memory. */
-int detail_light(struct solve *s, uint32_t first);
-
 /* Undo that: back to the first `count` elements. Returns 0, or -1 when out of memory. */
 int detail_drop(struct solve *s, uint32_t count);
+
+/* Room for the elements that others have made since there were `first`, and their light: what links
+ * say is the same function as before. Returns 0, or -1 when out of memory. */
+int detail_light(struct solve *s, uint32_t first);
 
 #endif

@@ -161,16 +161,14 @@ static int add_face(struct looking_past *l, const struct shaft *shaft, uint32_t 
 /* A lane of a block goes to the end of the face's own. */
 static void keep_edge(struct horizon *z, const struct sight_edge_block *from, int k)
 {
-    struct sight_edge_block *block = &z->of_face[z->own / SIGHT_LINES];
-    const int lane = z->own++ % SIGHT_LINES;
-    if (lane == 0)
-        memset(block, 0, sizeof *block);
+    double end[2][3], plane[2][4];
     for (int side = 0; side < 2; side++) {
         for (int i = 0; i < 3; i++)
-            block->end[side][i][lane] = from->end[side][i][k];
+            end[side][i] = from->end[side][i][k];
         for (int i = 0; i < 4; i++)
-            block->plane[side][i][lane] = from->plane[side][i][k];
+            plane[side][i] = from->plane[side][i][k];
     }
+    sight_edge_put(z->of_face, z->own++, end[0], end[1], plane[0], plane[1]);
 }
 
 /* The edges that are outlines from some point of a face: its points are seen from the same side as

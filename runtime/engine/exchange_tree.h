@@ -4,8 +4,8 @@
 #ifndef EXCHANGE_TREE_H
 #define EXCHANGE_TREE_H
 
-#include "hierarchy/group_hierarchy.h"
 #include "hierarchy/bodies.h"
+#include "hierarchy/group_hierarchy.h"
 #include "hierarchy/solids.h"
 #include "visibility/rays.h"
 

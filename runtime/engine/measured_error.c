@@ -426,8 +426,8 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     solve_forget_mended(s);
     s->by_paths = 0;
     int failed = own_quarters_share(s) < 0 || tracer_open(&t) < 0
-                 || (s->problem.options.no_links && look_ahead(s, &t, &left, &spent) < 0);
-    failed = failed || covered_leaves(s) < 0;
+                 || (s->problem.options.no_links && look_ahead(s, &t, &left, &spent) < 0)
+                 || covered_leaves(s) < 0;
     const uint32_t elements = s->hierarchy.count;
     failed = failed || detail_leaves(s, landings(&left)) < 0
              || tally_open(&tally, &t, MEND_STREAM, 1) < 0 || look(s, &t, &tally, &paths, goal) < 0

@@ -44,7 +44,11 @@ void sight_open(struct sight *sight, const struct element *e, const struct polyg
 void sight_eye_open(struct sight_eye *eye, const struct sight *sight, const double x[3],
                     const double n[3]);
 void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell);
+
+/* Sum up the edges that have been added since. */
 void sight_eye_sum(struct sight_eye *eye);
+
+/* Add an edge of what is hidden, or, the other way round, of what is seen. */
 static inline void sight_eye_edge(struct sight_eye *eye, const double from[2], const double to[2])
 {
     struct sight_edges *g = &eye->edges;

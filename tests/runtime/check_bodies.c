@@ -338,17 +338,23 @@ START_TEST(test_within)
 }
 END_TEST
 
-/* A point that is hardly farther above the plane than it is raised off its own is not told. */
-START_TEST(test_low)
+/* The two squares, and a small box in the middle between them. */
+static void open_box_between(struct scene *s, struct exchange_tree *t)
 {
     static const double at[3] = {0.4, 0.4, 0.4},
                         along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
+    open_squares(s);
+    add_box(s, at, along, 0);
+    open_tree(t, s);
+}
+
+/* A point that is hardly farther above the plane than it is raised off its own is not told. */
+START_TEST(test_low)
+{
     struct scene s;
     struct exchange_tree t;
     struct seen low = {0}, high = {0};
-    open_squares(&s);
-    add_box(&s, at, along, 0);
-    open_tree(&t, &s);
+    open_box_between(&s, &t);
     const double up = t.host.ray_offset,
                  x[2][3] = {{0.5, 0.5, 1 - 8 * up}, {0.5, 0.5, 1 - 20 * up}};
     look(&t, s.face_count, &x[0], 1, 1, &low);
@@ -364,15 +370,11 @@ END_TEST
  * and the side between has any direction: no box is beside that. */
 START_TEST(test_short_side)
 {
-    static const double at[3] = {0.4, 0.4, 0.4},
-                        along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
     struct scene s;
     struct exchange_tree t;
     struct seen seen = {0};
     double x[9][3];
-    open_squares(&s);
-    add_box(&s, at, along, 0);
-    open_tree(&t, &s);
+    open_box_between(&s, &t);
     for (int i = 0; i < 9; i++) {
         x[i][0] = 0.3 + 0.2 * (i % 3);
         x[i][1] = 0.3 + 0.2 * (i / 3);
