@@ -43,7 +43,8 @@ static inline int sight_ray_passes(const struct sight_ray *ray, const struct sig
     return enter > leave;
 }
 
-/* Its ends are on either side of the plane, and it runs by all edges on one side, or on them. */
+/* Which faces it meets, a bit of each: its ends are on either side of the plane, and it runs by all
+ * edges on one side, or on them. */
 TOOL int sight_faces_stop_body(const struct sight_faces *f, const struct sight_ray *ray)
 {
     const double x = ray->from[0], y = ray->from[1], z = ray->from[2], to_x = ray->to[0],
@@ -69,8 +70,8 @@ TOOL int sight_faces_stop_body(const struct sight_faces *f, const struct sight_r
         }
     any = 0;
     for (int k = 0; k < SIGHT_BOXED; k++)
-        any |= stops[k] & ~(left[k] & right[k]);
-    return any != 0;
+        any |= (stops[k] & ~(left[k] & right[k])) << k;
+    return (int)any;
 }
 
 #if LANES_CHOSEN
@@ -84,18 +85,21 @@ LANES_AVX2 int sight_faces_stop_4(const struct sight_faces *f, const struct sigh
 }
 #endif
 
-/* Does a ray meet one of the faces of so many blocks? */
+static inline int sight_faces_met(const struct sight_faces *f, const struct sight_ray *ray)
+{
+    return LANES_RUN(lanes_width(), sight_faces_stop_8, sight_faces_stop_4, sight_faces_stop_body,
+                     (f, ray));
+}
+
+/* The first of so many blocks with a face that a ray meets; -1: it meets none. */
 static inline int sight_faces_stop(const struct sight_faces *f, int blocks, struct sight_ray *ray)
 {
-    const int width = lanes_width();
     for (int k = 0; k < 3 && blocks > 1; k++)
         ray->per[k] = 1 / ray->along[k];
     for (int i = 0; i < blocks; i++)
-        if (!(blocks > 1 && sight_ray_passes(ray, &f[i]))
-            && LANES_RUN(width, sight_faces_stop_8, sight_faces_stop_4, sight_faces_stop_body,
-                         (&f[i], ray)))
-            return 1;
-    return 0;
+        if (!(blocks > 1 && sight_ray_passes(ray, &f[i])) && sight_faces_met(&f[i], ray))
+            return i;
+    return -1;
 }
 
 #endif

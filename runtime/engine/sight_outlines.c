@@ -48,8 +48,12 @@ static void cast_edges(struct cutting *c, const struct outline_cell *cell)
     }
 }
 
-/* Does the ray to the middle of a part meet a face? */
-static int is_hidden(const struct cutting *c, const struct outline_cell *cell)
+/* A part that so many edges still run through is worth a look at what hides all of it: a ray more
+ * to one that is cut into more than as many. Chosen. */
+enum { WORTH_A_LOOK = 8 };
+
+/* A block with a face that the ray to the middle of a part meets; -1: there is none. */
+static int hides_middle(const struct cutting *c, const struct outline_cell *cell)
 {
     struct sight_ray ray = {.from = {c->from[0], c->from[1], c->from[2]}};
     const double each = 1.0 / cell->n;
@@ -60,35 +64,67 @@ static int is_hidden(const struct cutting *c, const struct outline_cell *cell)
     return sight_faces_stop(c->between->block, sight_between_blocks(c->between), &ray);
 }
 
-/* Adds what is seen of the cell, cut along the edges from k on. */
-static void add_seen(const struct cutting *c, int k, const struct outline_cell *cell)
+/* Does one face that hides a part's middle hide all of it? Where the rays to its corners meet what
+ * is convex, so do all others. */
+static int is_covered(const struct cutting *c, const struct outline_cell *cell)
+{
+    struct sight_ray ray = {.from = {c->from[0], c->from[1], c->from[2]}};
+    const int at = hides_middle(c, cell);
+    int met = at < 0 ? 0 : ~0;
+    for (int i = 0; i < cell->n && met; i++) {
+        ray.to[0] = cell->p[i][0];
+        ray.to[1] = cell->p[i][1];
+        sight_ray_aim(&ray);
+        met &= sight_faces_met(&c->between->block[at], &ray);
+    }
+    return met != 0;
+}
+
+/* Does a line run through the cell? h[]: how far the cell's corners are over it. */
+static int crosses(const struct cut_line *line, const struct outline_cell *cell, double *h)
+{
+    int over_it = 0, under_it = 0;
+    for (int i = 0; i < cell->n; i++) {
+        h[i] = line->a * cell->p[i][0] + line->b * cell->p[i][1] - line->c;
+        over_it |= h[i] > 0;
+        under_it |= h[i] < 0;
+    }
+    return over_it && under_it && sight_runs_through(line->end[0], line->a, line->b, cell, h);
+}
+
+/* Adds what is seen of the cell, cut along the lines of a list that run through it; behind the list
+ * is room for shorter ones. A part is cut by those alone that run through the whole. */
+static void add_seen(const struct cutting *c, const uint16_t *among, int count, uint16_t *list,
+                     const struct outline_cell *cell)
 {
     struct outline_cell above, below;
-    double h[OUTLINE_CELL];
+    double first[OUTLINE_CELL], h[OUTLINE_CELL];
+    int by = -1, n = 0;
     if (cell->n < 3)
         return;
-    for (; k < c->lines; k++) {
-        const struct cut_line *line = &c->line[k];
-        int over_it = 0, under_it = 0;
-        for (int i = 0; i < cell->n; i++) {
-            h[i] = line->a * cell->p[i][0] + line->b * cell->p[i][1] - line->c;
-            over_it |= h[i] > 0;
-            under_it |= h[i] < 0;
-        }
-        if (over_it && under_it && sight_runs_through(line->end[0], line->a, line->b, cell, h)) {
-            above.n = polygon_divide(&cell->p[0][0], cell->n, 2, h, OUTLINE_CELL, &above.p[0][0],
-                                     &below.p[0][0], &below.n);
-            add_seen(c, k + 1, &above);
-            add_seen(c, k + 1, &below);
-            return;
-        }
+    for (int k = 0; k < count; k++) {
+        if (!crosses(&c->line[among[k]], cell, by < 0 ? first : h))
+            continue;
+        if (by < 0)
+            by = among[k];
+        else
+            list[n++] = among[k];
     }
-    if (!is_hidden(c, cell))
-        sight_eye_add(c->eye, cell);
+    if (by < 0) {
+        if (hides_middle(c, cell) < 0)
+            sight_eye_add(c->eye, cell);
+        return;
+    }
+    if (n >= WORTH_A_LOOK && is_covered(c, cell))
+        return;
+    above.n = polygon_divide(&cell->p[0][0], cell->n, 2, first, OUTLINE_CELL, &above.p[0][0],
+                             &below.p[0][0], &below.n);
+    add_seen(c, list, n, list + n, &above);
+    add_seen(c, list, n, list + n, &below);
 }
 
 double sight_past(const struct sight *sight, const double x[3], const double n[3], double up,
-                  const struct sight_between *between, double *whole)
+                  struct sight_between *between, double *whole)
 {
     struct cutting c;
     struct sight_eye eye;
@@ -103,6 +139,8 @@ double sight_past(const struct sight *sight, const double x[3], const double n[3
     c.eye = &eye;
     c.between = between;
     cast_edges(&c, &sight->cell);
-    add_seen(&c, 0, &sight->cell);
+    for (int k = 0; k < c.lines; k++)
+        between->cuts[k] = (uint16_t)k;
+    add_seen(&c, between->cuts, c.lines, between->cuts + c.lines, &sight->cell);
     return sight_eye_factor(&eye, whole);
 }

@@ -8,6 +8,6 @@
 
 /* sight_factor past what stands between. */
 double sight_past(const struct sight *sight, const double x[3], const double n[3], double up,
-                  const struct sight_between *between, double *whole);
+                  struct sight_between *between, double *whole);
 
 #endif
