@@ -97,6 +97,8 @@ bands by themselves | runtime/engine/face_error.c | s/noise += c->deviation\[j\]
 what is covered is handed light | runtime/engine/operator.h | s/return op->uncovered\[e\] > 0 ? op->uncovered\[j\] \/ op->uncovered\[e\] : 1;/return 1 + 0 * op->uncovered[e + 0 * j];/ | runtime/check_transport
 what leaves is still here | runtime/particles/power_balance.c | s/= ended + tally_unit/= ended + 0 * tally_unit/ | runtime/check_power_balance
 leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correction\[REPLICATES\]\[band\])/1/ | runtime/check_power_balance
+hidden at its middle, hidden all over | runtime/engine/sight_outlines.c | s/met &= sight_faces_met/(void)sight_faces_met/ | runtime/check_outlines
+half of what stands before a piece | runtime/engine/exchange_sight.c | s/memcpy(list_of(l, at), b->list, (size_t)b->faces/& \/ 2/ | runtime/check_outlines
 counted by nobody, surely nothing | runtime/engine/mend.c | s/if (m->tally->by_paths)$/if (1)/ | runtime/check_measured_error
 a class that none has met is sure | runtime/engine/face_error.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error
 what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->error, element), 0)/fmax(truth_of(s, seen->error, element), 1)/ | solver/check_error_image

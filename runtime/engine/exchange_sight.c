@@ -10,10 +10,10 @@
  * quadratic leaves of all points' values counts as well (face_rule.h): a shade's edge is none. The
  * piece with the largest error is cut first, until the root of the sum of their squares is small
  * enough or the pieces run out: errors of pieces have either sign. Pieces with more in their shaft
- * than a list holds have 64 rays each, and are cut too. Invariant: pieces cover the part once; what
- * is proved is not cut; none exchanges more than with nothing between. Fails: shades that meet no
- * point of a piece, nor of its rim. [globally adaptive cubature: van Dooren &
- * de Ridder 1976; the rest derived here]
+ * than points can look past have 1024 rays each, and are cut too. Invariant: pieces cover the part
+ * once; what is proved is not cut; none exchanges more than with nothing between. Fails: shades
+ * that meet no point of a piece, nor of its rim. [globally adaptive cubature: van Dooren & de
+ * Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +27,9 @@
 #include "terms/visibility.h"
 #include "visibility/candidates.h"
 
-enum { QUARTERS = 4, MANY = SIGHT_LIST + 1 };
+/* RAYS: of a piece with too much between for points. They take as long as finding what that is, and
+ * it counts as so many pieces, of which an equal number of rays may be cast. */
+enum { QUARTERS = 4, MANY = SIGHT_LIST + 1, RAYS = 1024, RAYS_COUNT = 16 };
 
 struct sight_node {
     struct element piece;
@@ -35,6 +37,7 @@ struct sight_node {
     double points, value, error; /* by its own points; by its quarters' (m2) */
     double rest;                 /* of what its points and those on its rim see (m2) */
     int count, quarters; /* how many blockers, 0 when proved, MANY; index of the first quarter */
+    int by_rays;         /* 1: as what stands between is too much for points to look past */
     double seen[FACE_RULE], whole[FACE_RULE]; /* of the other face, by the points inside */
 };
 
@@ -45,6 +48,7 @@ struct looking {
     struct sight sight;
     struct sight_scratch *scratch;
     int nodes, heap;
+    int cast;             /* of the nodes, by rays */
     int by_bodies;        /* 1: what is in scratch->between is in scratch->bodies */
     int shared;           /* 1: scratch->between is the pair's, and does for all pieces */
     int between_of;       /* else: the node that it is of; -1: of none */
@@ -168,7 +172,7 @@ static int place_between(struct looking *l)
  * parts that each meet few of them, and many edges part what is hidden, too. */
 static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
 {
-    const struct sight_between *b = l->scratch->between;
+    struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
     if (l->by_bodies) {
         const double seen = sight_rims_past(&l->sight, x, n, up, l->scratch->bodies, whole);
@@ -207,15 +211,15 @@ static double share(struct mean m)
     return m.seen > 0 ? fmin(m.seen / m.whole, 1) : 0;
 }
 
-/* A piece with more between than a list holds. */
-static void by_rays(const struct looking *l, struct sight_node *node)
+/* A piece with more between than points can look past. */
+static void by_rays(struct looking *l, struct sight_node *node)
 {
-    int rays = visibility_rays_of(VISIBILITY_RAYS_64);
-    double v = visibility_rays(&node->piece, l->to, &l->tree->host, rays);
-    node->count = MANY;
+    const double v = visibility_rays(&node->piece, l->to, &l->tree->host, RAYS);
+    node->by_rays = 1;
+    l->cast++;
     node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
     node->points = node->value = node->clear * v;
-    node->error = node->clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
+    node->error = node->clear * sqrt((v * (1 - v) + 1.0 / RAYS) / RAYS);
 }
 
 /* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
@@ -239,6 +243,7 @@ static enum between find_between(struct looking *l, const struct element *piece,
             count = host->candidates(host, &shaft, SIGHT_LIST, own);
             if (count == HOST_HIDDEN)
                 return BETWEEN_ALL;
+            between->faces = MANY;
             if (count > SIGHT_LIST)
                 return BETWEEN_MANY;
             sight_list_sort(own, count);
@@ -249,17 +254,26 @@ static enum between find_between(struct looking *l, const struct element *piece,
     return stands == BETWEEN_SOME && place_between(l) < 0 ? BETWEEN_MANY : stands;
 }
 
+/* What was found to stand before a piece is of use to its quarters. Returns how much that is. */
+static int keep_list(const struct looking *l, int at)
+{
+    const struct sight_between *b = l->scratch->between;
+    if (b->faces != MANY)
+        memcpy(list_of(l, at), b->list, (size_t)b->faces * sizeof *b->list);
+    return b->faces;
+}
+
 /* What a piece sees, by its own points, past those of the list that stand in its shaft. */
 static void measure(struct looking *l, int at, int all, const uint32_t *list, int count)
 {
     struct sight_node *node = &l->scratch->nodes[at];
-    const struct sight_between *between = l->scratch->between;
-    node->count = node->quarters = 0;
+    node->count = node->quarters = node->by_rays = 0;
     node->clear = node->points = node->value = node->error = 0;
     switch (find_between(l, &node->piece, all, list, count)) {
     case BETWEEN_ALL:
         return;
     case BETWEEN_MANY:
+        node->count = keep_list(l, at);
         by_rays(l, node);
         return;
     case BETWEEN_NOTHING:
@@ -267,8 +281,7 @@ static void measure(struct looking *l, int at, int all, const uint32_t *list, in
         node->points = node->value = node->clear;
         return;
     case BETWEEN_SOME:
-        node->count = between->faces;
-        memcpy(list_of(l, at), between->list, (size_t)node->count * sizeof *between->list);
+        node->count = keep_list(l, at);
         l->between_of = at;
         const struct mean m = by_points(l, &node->piece, 0, node->seen, node->whole);
         node->clear =
@@ -313,14 +326,20 @@ static double rest_of(struct looking *l, struct sight_node *node, double *differ
     return fit_rest(&l->scratch->fit[node->piece.vertices - 3], node, seen, whole);
 }
 
+/* Are there so many pieces left? */
+static int has_room(const struct looking *l, int pieces)
+{
+    return l->nodes + l->cast * (RAYS_COUNT - 1) + pieces <= l->scratch->limits.pieces;
+}
+
 /* Hold a piece against its quarters, which count from now on. */
 static void divide(struct looking *l, int at)
 {
     struct sight_node *nodes = l->scratch->nodes, *node = &nodes[at];
     const double before = node->error;
     double noise = 0;
-    if (l->nodes + QUARTERS > l->scratch->limits.pieces) {
-        if (node->count < MANY) /* the pieces have run out: as far as is known */
+    if (!has_room(l, QUARTERS * (node->by_rays ? RAYS_COUNT : 1))) {
+        if (!node->by_rays) /* the pieces have run out: as far as is known */
             node->error = SIGHT_UNKNOWN * node->points;
         return;
     }
@@ -331,10 +350,10 @@ static void divide(struct looking *l, int at)
         make_quarter(&quarter->piece, &node->piece, q);
         measure(l, l->nodes - 1, 0, list_of(l, at), node->count);
         node->value += quarter->value;
-        const double of = quarter->count == MANY ? quarter->error : before;
+        const double of = quarter->by_rays ? quarter->error : before;
         noise += of * of;
     }
-    if (node->count == MANY) {
+    if (node->by_rays) {
         node->error = sqrt(noise); /* few rays agree by chance, and quarters may be new */
         return;
     }
@@ -351,11 +370,11 @@ static void compare(struct looking *l, int at, double aim)
     int known = 0;
     if (node->count == 0)
         return;
-    if (l->scratch->limits.many && node->count < MANY && node->piece.vertices == 4) {
+    if (l->scratch->limits.many && !node->by_rays && node->piece.vertices == 4) {
         node->rest = fit_rest(&l->scratch->inside, node, node->seen, node->whole);
         known = SIGHT_BELIEVED * SIGHT_REST * node->rest > aim * l->from->area;
     }
-    if (node->count < MANY && !known && l->nodes + QUARTERS <= l->scratch->limits.pieces) {
+    if (!node->by_rays && !known && has_room(l, QUARTERS)) {
         if (l->between_of != at)
             (void)find_between(l, &node->piece, 0, list_of(l, at), node->count);
         node->rest = rest_of(l, node, &differ);
@@ -431,7 +450,7 @@ static double integrate(struct looking *l, const struct polygon *part, int all,
         compare(l, i, aim);
         count_in(l, i);
     }
-    while (l->heap > 0 && l->nodes + QUARTERS * QUARTERS <= limits->pieces
+    while (l->heap > 0 && has_room(l, QUARTERS * QUARTERS)
            && !sight_enough(limits, sqrt(fmax(l->square, 0)), l->value, least)) {
         int at = heap_out(l), quarters = nodes[at].quarters;
         l->value -= nodes[at].value;
