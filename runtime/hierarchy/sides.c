@@ -2,12 +2,13 @@
  *
  * Around an edge stand the faces that share it, in an order; two that follow each other bound one
  * space with the sides they turn to each other, and a face that stands there alone does so with
- * both of its own: light gets around it. An edge that is nobody's else may run through another
- * face, as where a box without a bottom stands on the floor: then nothing gets around it there, and
- * that face bounds the spaces on either side of it in parts; or along another's longer edge: then
- * the faces around it are asked stretch by stretch. What is not sure is joined, so that spaces come
- * out too large rather than too small, as where faces lie on each other.
- * [Faces in their order around an edge: radial edges, Weiler 1986; as maps: Tarjan 1975]
+ * both of its own: light gets around it. An edge may run through another face, as where a box
+ * without a bottom stands on the floor: then nothing gets around it there, and that face bounds the
+ * spaces on either side of it in parts; or along a longer edge: so the faces around it are asked
+ * stretch by stretch. Edges need not be equal: what is nearer than CUT_TOUCH is at one place. What
+ * is not sure is joined, so that spaces come out too large rather than too small, as where faces
+ * lie on each other. [Faces in their order around an edge: radial edges, Weiler 1986; as maps:
+ * Tarjan 1975]
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/sides.h"
 

@@ -20,6 +20,9 @@
 #include "kernel/hemisphere.h"
 #include "kernel/surface_point.h"
 
+/* Walks of a space, and from each of its sides, at the least, and steps of one at the most. Chosen:
+ * of 10,585 dark sides of six furnished scenes particles then meet three, through slits, with a
+ * millionth of a scene's light at the most. */
 enum { RAYS = 64, STARTS = 2, STEPS = 16 };
 
 struct search {
