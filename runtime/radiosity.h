@@ -504,9 +504,9 @@ RAD_API RadSolution radSolveScene(RadScene scene, RadOracle oracle,
                                   const struct RadSolveOptions *options,
                                   const struct RadChoiceOptions *wishes, struct RadChoice *choice);
 
-/* Area means of one band over each polygon of the scene, both sides of two-sided ones;
- * [RadSceneReport.polygons], the caller's; any may be NULL. B of what is not covered by others, H
- * over all of it. Returns 0, or -1. */
+/* Area means of one band over each polygon of the scene, both sides of two-sided ones, a dark one
+ * with 0; [RadSceneReport.polygons], the caller's; any may be NULL. B of what is not covered by
+ * others, H over all of it. Returns 0, or -1. */
 RAD_API int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity,
                                 double *irradiance);
 
@@ -531,7 +531,9 @@ struct RadElements {
     const uint32_t *face_element; /* [RadSceneReport.faces]: the element that is the whole face */
     uint32_t bands;
     const double *radiosity, *irradiance; /* [element * bands + band]; clusters hold means */
-    const double *uncovered; /* [count]: share of the element that no solid stands on */
+    /* [count]: share of the element that no solid stands on; 0 of a side that no light comes to, as
+     * the inside of a solid */
+    const double *uncovered;
     /* Of RAD_BASIS_LINEAR, once radSolve or the last radStep is done, else NULL:
      * [(element * bands + band) * 3]. B at point x of a surface is radiosity + gradient . (x -
      * centre), W/m2, and not below 0 where its mean is not; radiosity stays the mean over the

@@ -113,6 +113,11 @@ emitters of one leaf | runtime/engine/detail.c | s/failed = h->elements\[i\].ver
 corners below what is emitted | runtime/engine/linear_solution.c | s/x->means->value\[at\] - emitted/x->means->value[at] - 0 * emitted/ | runtime/check_measured_error
 edges of solids in large leaves | runtime/engine/covered_leaves.c | s/is_edge \&\& e->area > most/is_edge \&\& e->area > 64 * most/ | runtime/check_covered_leaves
 large neighbours of small leaves | runtime/engine/covered_leaves.c | s/depth + 1 >= e.depth/depth + 3 >= e.depth/ | runtime/check_covered_leaves
+floors that nothing stands on | runtime/hierarchy/sides.c | s/if (over > -slight)/if (over > 1e9)/ | runtime/check_dark_sides
+rims that light does not pass | runtime/hierarchy/sides.c | s/i < count \&\& !failed; i++) {/i < count \&\& count > 1 \&\& !failed; i++) {/ | runtime/check_dark_sides
+walks that end where something stands | runtime/visibility/dark_sides.c | s/!s->sides.touched\[side\]/s->sides.far > 0/ | runtime/check_dark_sides
+dark sides in the tree | runtime/hierarchy/hierarchy.c | s/dark += faces\[i\].light == FACE_DARK/dark += faces[i].light > FACE_ALONE/ | runtime/check_dark_sides
+dark fronts that shade | runtime/hierarchy/hierarchy.h | s/? !f->back : f->light == FACE_ALONE/? !f->back : !f->back/ | runtime/check_dark_sides
 leaves of one size | runtime/engine/measured_error.c | s/rays \* SMALL <= landings/1e9 * SMALL <= landings/ | runtime/check_ambient
 ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflectance\[at\])/area/ | runtime/check_ambient
 backs of another face | runtime/particles/particles.c | s/tally->back\[ray_meets_back(met)\]/tally->back[0]/ | runtime/check_backs

@@ -424,7 +424,8 @@ int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, 
         uint32_t e = s->hierarchy.face_element[i], input = scene->faces[i].input;
         double a = s->hierarchy.elements[e].area;
         area[input] += a;
-        bare[input] += a * s->operator.uncovered[e];
+        bare[input] +=
+            a * (s->hierarchy.faces[i].light == FACE_DARK ? 1 : s->operator.uncovered[e]);
         if (radiosity)
             radiosity[input] +=
                 a * s->operator.uncovered[e] * shown->radiosity[(size_t)e * bands + band];

@@ -44,14 +44,6 @@ enum {
 };
 #define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
 
-static double strongest(const struct tracer *t, uint32_t face)
-{
-    double most = 0;
-    for (uint32_t k = 0; k < t->bands; k++)
-        most = fmax(most, t->reflectance[(size_t)face * t->bands + k]);
-    return most;
-}
-
 /* ---- which polygons */
 
 /* A polygon, and what of it reflects (m2). */
@@ -91,7 +83,7 @@ static int list_polygons(struct dim_faces *d, uint32_t most)
     }
     for (uint32_t i = 0; i < h->face_count && !failed; i++) {
         struct candidate *c = &all[h->faces[i].input];
-        c->area += strongest(t, i) > 0 ? tracer_surface(t, i)->area : 0;
+        c->area += tracer_reflectance(t, i) > 0 ? tracer_surface(t, i)->area : 0;
     }
     for (uint32_t p = 0; p < polygons && !failed; p++)
         if (is_asked(d, &all[p]))
@@ -115,7 +107,7 @@ static void list_faces(struct dim_faces *d)
     const struct hierarchy *h = t->hierarchy;
     uint32_t next = 0;
     for (uint32_t i = 0; i < h->face_count; i++)
-        if (strongest(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM)
+        if (tracer_reflectance(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM)
             d->polygon[d->of[h->faces[i].input]].to++;
     for (uint32_t j = 0; j < d->count; j++) {
         struct dim_polygon *p = &d->polygon[j];
@@ -124,7 +116,7 @@ static void list_faces(struct dim_faces *d)
         p->to = p->from;
     }
     for (uint32_t i = 0; i < h->face_count; i++)
-        if (strongest(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM) {
+        if (tracer_reflectance(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM) {
             struct dim_polygon *p = &d->polygon[d->of[h->faces[i].input]];
             p->area += tracer_surface(t, i)->area;
             d->until[p->to] = p->area;
@@ -317,7 +309,7 @@ static int all_sure(const struct dim_faces *d)
 static const struct dim_polygon *polygon_of(const struct dim_faces *d, uint32_t face)
 {
     uint32_t of = d->of[d->tracer->hierarchy->faces[face].input];
-    return of != NOT_DIM && strongest(d->tracer, face) > 0 ? &d->polygon[of] : NULL;
+    return of != NOT_DIM && tracer_reflectance(d->tracer, face) > 0 ? &d->polygon[of] : NULL;
 }
 
 /* The power of two that is nearest. The last digits of a solution are other ones on several ranks:

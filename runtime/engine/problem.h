@@ -29,9 +29,10 @@ struct solve_options {
     int clusters; /* 1 + the strategy that groups faces; 0: the default */
     /* whose picture counts, for oracles that read importance; NULL: all places alike */
     const struct camera *camera;
-    int linear;   /* 1: once links are final, solve for functions linear over each element */
-    int no_links; /* 1: particles alone tell how light goes (ambient.h) */
-    int unit;     /* ignore the materials: every face has B = 1 and stays so (view factors) */
+    int linear;    /* 1: once links are final, solve for functions linear over each element */
+    int no_links;  /* 1: particles alone tell how light goes (ambient.h) */
+    int unit;      /* ignore the materials: every face has B = 1 and stays so (view factors) */
+    int all_sides; /* sides that no light comes to are not told apart (lit_faces.h) */
     struct limits limits; /* of refinement */
     struct ranks *ranks;  /* processes that solve it together, all with these options; NULL: one */
     /* NULL: none; nonzero cancels */

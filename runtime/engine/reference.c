@@ -29,8 +29,11 @@ static const uint64_t PARTICLE_STREAM = 0x7265666572, PATH_STREAM = (uint64_t)0x
 int reference_open(struct reference *r, const struct scene *scene, int threads, struct ranks *ranks,
                    const char **cause)
 {
-    const struct solve_options options = {
-        .tolerance = SOLVE_TOLERANCE, .iterations = 1, .threads = threads, .ranks = ranks};
+    const struct solve_options options = {.tolerance = SOLVE_TOLERANCE,
+                                          .iterations = 1,
+                                          .threads = threads,
+                                          .ranks = ranks,
+                                          .all_sides = 1};
     *r = (struct reference){0};
     if (solve_open(&r->solve, scene, &options, cause) < 0)
         return -1;

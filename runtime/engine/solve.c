@@ -87,8 +87,10 @@ static void measure_leaves(const void *contacts, size_t from, size_t to)
     const struct contacts *c = contacts;
     for (size_t i = c->first + from; i < c->first + to; i++) {
         const struct element *e = &c->h->elements[i];
-        if (e->vertices && !e->children && !(c->known && c->uncovered[i] >= 1))
-            c->uncovered[i] = 1 - contact_fraction(c->rays, c->h, e);
+        if (!e->vertices || e->children || (c->known && c->uncovered[i] >= 1))
+            continue;
+        c->uncovered[i] =
+            c->h->faces[e->face].light == FACE_DARK ? 0 : 1 - contact_fraction(c->rays, c->h, e);
     }
 }
 
@@ -122,6 +124,13 @@ void solve_average_contact(struct solve *s, uint32_t count)
     const struct contacts contacts = {.h = &s->hierarchy, .uncovered = s->operator.uncovered };
     for (uint32_t i = count; i-- > 0;) /* children follow their parents */
         measure_parent(&contacts, i);
+}
+
+/* The scene's, unless what is dark is told apart. */
+static const struct face *faces_of(const struct problem *p)
+{
+    const int all = p->options.unit || p->options.all_sides;
+    return all || !p->scene->lit ? p->scene->faces : p->scene->lit;
 }
 
 /* Returns 0, or -1 when out of memory. */
@@ -185,7 +194,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     p->bands = options->unit ? 1 : scene->bands;
     s->operator=(struct light_operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
     if (ranks_any(options->ranks,
-                  hierarchy_build_by(h, scene->faces, scene->face_count,
+                  hierarchy_build_by(h, faces_of(p), scene->face_count,
                                      options->clusters ? (enum clustering)(options->clusters - 1)
                                                        : CLUSTERING_DEFAULT,
                                      options->threads)

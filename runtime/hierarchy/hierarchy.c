@@ -130,6 +130,53 @@ static void measure_clusters(const void *measuring, size_t from, size_t to)
             element_measure_cluster(&m->h->elements[i], m->share, &m->t->boxes[i], m->h->range[i]);
 }
 
+/* The tree over the faces that are not dark, and the dark ones after them in its order. Returns how
+ * many are in it; 0 when out of memory. */
+static uint32_t build_tree(struct bvh *t, const struct face *faces, uint32_t count,
+                           enum clustering strategy, int threads)
+{
+    uint32_t held = 0, dark = 0;
+    for (uint32_t i = 0; i < count; i++)
+        dark += faces[i].light == FACE_DARK;
+    if (dark == 0)
+        return bvh_build(t, faces, count, strategy, threads) < 0 ? 0 : count;
+    struct face *some = malloc(count * sizeof *some);
+    uint32_t *order = malloc(count * sizeof *order), *of = malloc(count * sizeof *of);
+    for (uint32_t i = 0; some && of && i < count; i++)
+        if (faces[i].light != FACE_DARK) {
+            some[held] = faces[i];
+            of[held++] = i;
+        }
+    if (!order || held == 0 || bvh_build(t, some, held, strategy, threads) < 0) {
+        free(some);
+        free(order);
+        free(of);
+        return 0;
+    }
+    for (uint32_t i = 0; i < held; i++)
+        order[i] = of[t->order[i]];
+    for (uint32_t i = 0, n = held; i < count; i++)
+        if (faces[i].light == FACE_DARK)
+            order[n++] = i;
+    free(t->order);
+    t->order = order;
+    free(some);
+    free(of);
+    return held;
+}
+
+/* Elements of the dark faces, behind those of the tree: of no cluster's. */
+static void add_dark(struct hierarchy *h, uint32_t held)
+{
+    for (uint32_t i = held; i < h->face_count; i++) {
+        const uint32_t index = h->count++;
+        memset(&h->elements[index], 0, sizeof *h->elements);
+        h->range[index] = (struct face_range){i, i + 1};
+        make_face(h, index, h->order[i]);
+    }
+    h->built = h->count;
+}
+
 int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count,
                        enum clustering strategy, int threads)
 {
@@ -137,14 +184,16 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     int result = -1;
     memset(h, 0, sizeof *h);
     struct bvh t;
-    if (bvh_build(&t, faces, face_count, strategy, threads) < 0)
+    const uint32_t held = build_tree(&t, faces, face_count, strategy, threads);
+    if (held == 0)
         return -1;
+    const uint32_t dark = face_count - held;
     h->faces = faces;
     h->face_count = face_count;
     h->face_element = malloc(face_count * sizeof *h->face_element);
-    h->range = malloc(t.count * sizeof *h->range);
+    h->range = malloc(((size_t)t.count + dark) * sizeof *h->range);
     share = malloc(face_count * sizeof *share);
-    if (!h->face_element || !h->range || !share || reserve_elements(h, t.count) < 0)
+    if (!h->face_element || !h->range || !share || reserve_elements(h, t.count + dark) < 0)
         goto done;
     h->count = h->built = t.count;
     memcpy(h->low, t.boxes[0].low, sizeof h->low);
@@ -155,6 +204,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     thread_pool_run(threads, t.count, 64, measure_clusters, &m);
     h->order = t.order;
     t.order = NULL;
+    add_dark(h, held);
     result = 0;
 done:
     free(share);

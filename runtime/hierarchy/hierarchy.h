@@ -14,10 +14,20 @@ struct face {
     uint32_t vertices;   /* 3 or 4 */
     uint32_t material;   /* the caller's */
     uint32_t input;      /* index of the face in the scene file it came from */
-    /* 1: the far side of a two-sided face that is also listed; casts no shadow of its own */
-    uint8_t back;
-    uint8_t black; /* 1: neither emits nor reflects in any band */
+    uint8_t back;        /* 1: the far side of a two-sided face that is also listed */
+    uint8_t black;       /* 1: neither emits nor reflects in any band */
+    uint8_t light;       /* enum face_light */
 };
+
+/* What is known of the light on the sides of a two-sided face. No light comes to a dark one, and no
+ * tree holds it: of a two-sided face the other side is left, with a black back. */
+enum face_light { FACE_LIT, FACE_DARK, FACE_ALONE /* the other side is dark */ };
+
+/* Does it cast a shadow? Of two sides one does, and so a front where both are lit. */
+static inline int face_shades(const struct face *f)
+{
+    return f->light == FACE_LIT ? !f->back : f->light == FACE_ALONE;
+}
 
 struct hierarchy {
     /* [count]; element 0 is the root; children of one element are neighbours */
@@ -27,13 +37,14 @@ struct hierarchy {
     const struct face *faces; /* [face_count], borrowed */
     uint32_t face_count;
     uint32_t *face_element; /* [face_count]: the element that is the whole face */
-    /* [face_count]: the faces in the tree's order, so that each cluster's are neighbours */
+    /* [face_count]: the faces in the tree's order, so that each cluster's are neighbours; dark
+     * ones, which the tree does not hold, are the last */
     uint32_t *order;
     struct face_range {
         uint32_t from, to;
         /* [built]: the part of `order` below each element made by hierarchy_build */
     } * range;
-    uint32_t built;         /* elements made by hierarchy_build: clusters and faces */
+    uint32_t built; /* elements made by hierarchy_build: clusters and faces, then dark faces */
     double low[3], high[3]; /* bounding box of the faces (m) */
     /* [built]: 1: what stands in shafts: faces, and groups that are as good as one. NULL: faces
      * alone */

@@ -420,6 +420,7 @@ void scene_free(struct scene *scene)
     free(scene->input_materials);
     free(scene->materials);
     free(scene->faces);
+    free(scene->lit);
     free(scene->areas);
     *scene = (struct scene){0};
 }

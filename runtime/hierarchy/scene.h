@@ -13,6 +13,9 @@ struct scene {
      * ones two (front, then `back`) */
     struct face *faces;
     uint32_t face_count;
+    /* [face_count]: the same, which say what is dark (lit_faces.h); NULL: nobody asked, or nothing
+     * is */
+    struct face *lit;
     struct RadMaterial *materials;
     uint32_t material_count;
     /* [input_count]: one side's area of each polygon (m2), 0 of those that were dropped */

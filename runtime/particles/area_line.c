@@ -18,11 +18,8 @@ int area_line_open(struct area_line *line, const struct tracer *t)
     }
     for (uint32_t i = 0; i < faces; i++) {
         uint32_t face = h->order[i];
-        double brightest = 0;
-        for (uint32_t k = 0; k < t->bands; k++)
-            brightest = fmax(brightest, t->reflectance[(size_t)face * t->bands + k]);
         line->place[face] = UINT32_MAX;
-        if (!(brightest > 0))
+        if (!(tracer_reflectance(t, face) > 0))
             continue;
         line->place[face] = line->count;
         line->face[line->count] = face;

@@ -30,10 +30,7 @@ int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t strea
     }
     double all = 0;
     for (uint32_t i = 0; i < faces; i++) {
-        double rho = 0;
-        for (uint32_t k = 0; k < t->bands; k++)
-            rho = fmax(rho, t->reflectance[(size_t)i * t->bands + k]);
-        double each = rho * tracer_surface(t, i)->area;
+        double each = tracer_reflectance(t, i) * tracer_surface(t, i)->area;
         p->share[i] = cbrt(each * each);
         all += p->share[i];
     }

@@ -50,6 +50,15 @@ void tracer_close(struct tracer *t)
     t->lights = (struct lights){0};
 }
 
+double tracer_reflectance(const struct tracer *t, uint32_t face)
+{
+    double most = 0;
+    const int dark = t->hierarchy->faces[face].light == FACE_DARK;
+    for (uint32_t k = 0; k < t->bands && !dark; k++)
+        most = fmax(most, t->reflectance[(size_t)face * t->bands + k]);
+    return most;
+}
+
 uint32_t lights_choose(const struct lights *l, double u)
 {
     return l->face[running_sums_find(l->until, l->count, u * l->power)];

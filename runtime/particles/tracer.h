@@ -68,6 +68,9 @@ static inline double dice_throw(struct dice *d)
 int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u, double v,
                     double at[3]);
 
+/* rho of a face, the band where it is largest; 0 of one that no light comes to. */
+double tracer_reflectance(const struct tracer *t, uint32_t face);
+
 /* A point spread evenly over the face by (u, v) in [0, 1)^2, just in front of it. */
 void tracer_point(const struct tracer *t, uint32_t face, double u, double v, double p[3]);
 

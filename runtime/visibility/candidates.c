@@ -104,7 +104,7 @@ static int walk_shaft(const struct walk *w, uint32_t index)
     if (w->of && w->of[index] && (w->of[index] == w->behind[0] || w->of[index] == w->behind[1]))
         return 0;
     if (h->solid ? h->solid[index] : e->vertices)
-        return !h->faces[h->order[h->range[index].from]].back
+        return face_shades(&h->faces[h->order[h->range[index].from]])
                        && candidates_meets(h, w->shaft, w->offset, index)
                    ? w->found(w->context, h->solid ? index : e->face)
                    : 0;
@@ -212,7 +212,7 @@ static double depth(const struct hierarchy *h, uint32_t index, const struct segm
         }
         if (x->face == own[0] || x->face == own[1])
             counts = 0;
-        if (!h->faces[x->face].back)
+        if (face_shades(&h->faces[x->face]))
             area += x->area;
     }
     return counts && area > 0 ? sum + 0.25 * area / volume * length : sum;

@@ -4,8 +4,9 @@
  * one-sided face: it is inside something. The share is that of a 4 x 4 grid of points, so it is off
  * by up to about half a cell along the edge of what stands there. Where nothing stands on a part
  * (standing.h) the middle is asked, and says it for all when it is outside. Not all rays need meet
- * backs: solids may reach into each other, and a ray along an edge may slip past. Fails where faces
- * are two-sided: they have no inside. [derived here]
+ * backs: solids may reach into each other, and a ray along an edge may slip past. Solids of
+ * two-sided faces have backs where their insides are known to be dark (dark_sides.h). [derived
+ * here]
  * SPDX-License-Identifier: MIT */
 #include "kernel/constants.h"
 #include "kernel/hemisphere.h"

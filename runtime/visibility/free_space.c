@@ -113,7 +113,7 @@ void free_space_find(struct free_space *space, const struct hierarchy *h, double
     }
     for (uint32_t i = 0; i < h->face_count; i++) {
         const struct face *f = &h->faces[i];
-        if (f->back || is_wall(&walk, &walls, i))
+        if (!face_shades(f) || is_wall(&walk, &walls, i))
             continue;
         for (uint32_t v = 0; v < f->vertices; v++)
             for (int k = 0; k < 3; k++) {

@@ -195,6 +195,8 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
 {
     double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0;
     for (uint32_t i = 0; i < h->face_count; i++) {
+        if (h->faces[i].light == FACE_DARK)
+            continue;
         double a = h->elements[h->face_element[i]].area;
         area += a;
         emitted += a * exitance[i];
@@ -234,7 +236,7 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
     RTCGeometry geometry = rtcNewGeometry(rays->device, RTC_GEOMETRY_TYPE_QUAD);
     uint32_t solid = 0, n = 0;
     for (uint32_t i = 0; i < h->face_count; i++)
-        solid += !h->faces[i].back;
+        solid += (uint32_t)face_shades(&h->faces[i]);
     float *vertices;
     vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                        3 * sizeof *vertices, (size_t)solid * 4);
@@ -250,7 +252,7 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
     }
     for (uint32_t i = 0; i < h->face_count; i++) {
         const struct face *f = &h->faces[i];
-        if (f->back)
+        if (!face_shades(f))
             continue;
         for (uint32_t j = 0; j < 4; j++) {
             /* a triangle repeats its last corner */

@@ -15,8 +15,8 @@ struct rays_count {
     double seconds; /* inside Embree, summed over threads; by some of the calls */
 };
 
-/* Build the occlusion structure over the faces; those marked `back` cast no shadow of their own,
- * for their front stands at the same place and every face occludes from both sides. exitance and
+/* Build the occlusion structure over the faces; those that do not shade (hierarchy.h) stand where
+ * another does, and every face occludes from both sides. exitance and
  * reflectance: scene totals for host.irradiance, [face_count] largest band each. `threads`: how
  * many threads may ask at once. The hierarchy is borrowed until rays_close; it may be split
  * meanwhile, but not while a discussion goes on. Returns NULL when Embree fails; *cause then names

@@ -77,7 +77,7 @@ static int reaches_in(const struct hierarchy *h, const struct prism *p, double o
 {
     const struct element *e = &h->elements[index];
     if (e->vertices && h->face_element[e->face] == index)
-        return e->face != p->face && !h->faces[e->face].back && !stays_out(p, e, off);
+        return e->face != p->face && face_shades(&h->faces[e->face]) && !stays_out(p, e, off);
     for (int k = 0; k < 3 && !e->vertices; k++)
         if (e->vertex[0][k] > p->high[k] || e->vertex[1][k] < p->low[k])
             return 0;
