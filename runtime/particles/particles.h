@@ -59,9 +59,10 @@ struct tally {
     double correction[REPLICATES + 1][3];
     uint32_t *made; /* owned; what `first` is of where the hierarchy has all */
     const uint32_t
-        *first;        /* [number]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
-    uint32_t *drawers; /* of quarters: quarters_drawers; NULL without leaves */
-    double *square;    /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
+        *first;      /* [number]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
+    uint32_t *place; /* [elements]: tally_place of its face, of those that are held; only with
+                      * quarters, and NULL without leaves */
+    double *square;  /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
     int by_paths;            /* 1: paths stand for particles (path_tally.h) */

@@ -33,14 +33,17 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
     if (leaves) {
         tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
         tally->made = q ? NULL : malloc(tally->elements * sizeof *tally->made);
-        tally->drawers = q ? quarters_drawers(q, h) : NULL;
+        tally->place = q ? malloc(tally->elements * sizeof *tally->place) : NULL;
         tally->first = q ? q->child : tally->made;
     }
     if (!tally->face || !tally->back || !tally->square
-        || (leaves && (!tally->element || !tally->first || (q && !tally->drawers)))) {
+        || (leaves && (!tally->element || !tally->first || (q && !tally->place)))) {
         tally_close(tally);
         return -1;
     }
+    for (uint32_t i = 0; leaves && q && i < tally->elements; i++)
+        if (h->elements[i].vertices)
+            tally->place[i] = (uint32_t)tally_place(tally, h->elements[i].face);
     for (uint32_t i = 0; leaves && !q && i < tally->elements; i++) {
         const struct element *e = &h->elements[i];
         tally->made[i] = e->children ? e->child : 0;
@@ -52,10 +55,10 @@ void tally_forget_leaves(struct tally *tally)
 {
     free(tally->element);
     free(tally->made);
-    free(tally->drawers);
+    free(tally->place);
     tally->element = NULL;
     tally->made = NULL;
-    tally->drawers = NULL;
+    tally->place = NULL;
     tally->first = NULL;
 }
 
@@ -65,7 +68,7 @@ void tally_close(struct tally *tally)
     free(tally->back);
     free(tally->element);
     free(tally->made);
-    free(tally->drawers);
+    free(tally->place);
     free(tally->square);
     free(tally->until);
     free(tally->carried);

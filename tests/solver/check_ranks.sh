@@ -117,7 +117,12 @@ if [ -n "${THOROUGH:-}" ]; then
     check "2000 boxes: $told bytes told in sweeps of $ghosts elements" \
         below "$told" "$(awk "BEGIN { print 8 * $ghosts * $(value one.json iterations) }")"
 fi
-# Paths of dim polygons end in all quarters.
+# Paths of dim polygons end in all quarters; but of others' they take the light, and not the quarters.
+several 3 "$radiosity" solve "$scenes/room.obj" -q -o several.ply --json several.json >said 2>&1
+all=$(ranks_most elements)
+several 3 "$radiosity" solve "$scenes/room.obj" -q --json several.json >said 2>&1
+held=$(ranks_most elements)
+check "room: one of 3 ranks has $held elements, all have $all: $(head -n 3 said)" below "$held" "$(awk "BEGIN { print .7 * $all }")"
 "$radiosity" solve "$scenes/cornell.obj" -q -o one.ply
 several 3 "$radiosity" solve "$scenes/cornell.obj" -q -o several.ply >said 2>&1
 check "cornell: another mesh on 3 ranks: $(head -n 3 said)" cmp one.ply several.ply
