@@ -51,7 +51,8 @@ static void count_packed(struct tally *tally, const uint32_t *from, size_t count
 {
     const uint32_t mask = (1u << COUNT_BITS) - 1, bands = tally->bands;
     for (size_t i = 0; i < count; i++, from += words(tally)) {
-        const size_t place = tally->element ? tally->place[from[0]] : tally_place(tally, from[0]),
+        const size_t place =
+                         tally->element ? tally->leaf_place[from[0]] : tally_place(tally, from[0]),
                      at = (size_t)(from[1] >> COUNT_BITS) * tally->held + place;
         for (uint32_t k = 0; k < bands; k++) {
             const int64_t w = from[1 + k] & mask;

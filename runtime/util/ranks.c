@@ -313,6 +313,7 @@ void ranks_exchange_known(struct ranks *r, enum ranks_kind kind, const void *ite
             memcpy(to, items, count[0] * size);
         return;
     }
+    static const char nothing; /* Open MPI takes equal addresses for one array, if empty, too */
     size_t sent = 0, came = 0;
     for (int k = 0; k < n; k++) {
         r->counts[k] = (int)count[k];
@@ -323,7 +324,7 @@ void ranks_exchange_known(struct ranks *r, enum ranks_kind kind, const void *ite
         came += from[k];
         r->sent[kind] += k == r->number ? 0 : count[k] * size;
     }
-    exchange(r, items, to, size);
+    exchange(r, sent ? items : &nothing, to, size);
 }
 
 void *ranks_exchange(struct ranks *r, enum ranks_kind kind, const void *items, size_t size,
