@@ -125,9 +125,10 @@ backs of a replicate | runtime/engine/black_backs.c | s,/ REPLICATES / tally->po
 names of other faces | runtime/engine/dim_faces.c | s/faces\[d->face\[p->from\]\].input/j/ | solver/check_backs
 all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine\[1\] - mine\[0\])/tally->held = h->face_count/ | runtime/check_own_counts
 letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
-quarters by their place | runtime/hierarchy/quarters.c | s/return q->common + low;/return q->common;/ | runtime/check_own_counts
+quarters by their place | runtime/hierarchy/quarters.h | s/ + (number - q->child\[leaf\]);/;/ | runtime/check_own_counts
 children of several are not told | runtime/engine/mend_places.c | s/            p->at\[c\] = p->held++;/            (void)c;/ | runtime/check_own_counts
-quarters of the next drawer | runtime/hierarchy/quarters.c | s/drawer = &drawers\[(/drawer = \&drawers[1 + (/ | runtime/check_own_counts
+new elements leave their parents as they were | runtime/engine/solve.c | s/face\[count++\] = f;/(void)face;/ | runtime/check_measured_error
+leaves before have no quarters | runtime/hierarchy/quarters.c | s/q->place\[i\] = made\[.*/q->place[i] = 0;/ | runtime/check_own_counts
 meshes far away | solver/output/far_away.c | s/return moved;/return 0;/ | solver/check_picture
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
 shadows grow alike | runtime/engine/sight_rims.c | s/c->grow \* (i + 1)/0 * c->grow * (i + 1)/ | runtime/check_bodies

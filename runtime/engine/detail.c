@@ -133,6 +133,11 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
     for (uint32_t i = 0; i < first && !failed; i++)
         failed = h->elements[i].vertices && !h->elements[i].children && !h->elements[i].black
                  && split_leaf(s, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0;
+    failed = failed
+             || (own_quarters(s)
+                 && quarters_place(&s->quarters, h, s->operator.shares.owner,
+                                   (size_t)ranks_count(s->problem.options.ranks))
+                        < 0);
     return ranks_any(s->problem.options.ranks, failed) ? -1 : detail_light(s, first);
 }
 

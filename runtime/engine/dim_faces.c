@@ -343,7 +343,8 @@ static void set_windows(const struct dim_faces *d, float *window)
 
 /* Paths by so many rays, and where these leave some unsure split particles by what `both` has left;
  * but these are not asked for fewer rays than mending took: they would know less. */
-static int trace_all(struct dim_faces *d, double paths, double both, double mending)
+static int trace_all(struct dim_faces *d, struct solve *s, double paths, double both,
+                     double mending)
 {
     uint64_t before = *d->rays;
     if (trace_paths(d, paths) < 0)
@@ -351,6 +352,8 @@ static int trace_all(struct dim_faces *d, double paths, double both, double mend
     double rays = both - (double)(*d->rays - before);
     if (rays < mending || all_sure(d))
         return 0;
+    if (own_quarters_share(s) < 0) /* split particles ask every leaf what they are to carry */
+        return -1;
     float *window = malloc(d->tracer->hierarchy->count * sizeof *window);
     if (!window)
         return -1;
@@ -417,6 +420,7 @@ static void close_all(struct dim_faces *d)
     free(d->polygon);
     free(d->face);
     free(d->until);
+    quarter_light_close(&d->light);
 }
 
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
@@ -426,12 +430,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     /* so many that each is believed, at the least: dim_belief.c */
     const uint64_t most =
         size == DIM_LARGE_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
-    struct dim_faces d = {.solve = s,
-                          .tracer = t,
-                          .size = size,
-                          .light = element_light_shown(s),
-                          .watch = watch,
-                          .rays = rays};
+    struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
     *count = (struct dim_count){0};
     if (!(t->lights.power > 0) || tally->particles == 0)
         return 0;
@@ -441,17 +440,15 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
         count->large = d.count;
         failed = keep_dim(&d, tally) < 0;
         d.believed = believed(&d, tally);
-        /* paths end in the light of all quarters, wherever they are */
-        failed = failed || (d.count > 0 && own_quarters_share(s) < 0);
-        d.light = element_light_shown(s);
+        failed = failed || (d.count > 0 && quarter_light_open(&d.light, s) < 0);
         for (uint32_t i = 0; i < t->hierarchy->face_count && !failed; i++)
             for (uint32_t k = 0; k < t->bands; k++)
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        failed =
-            failed
-            || (d.count > 0 && trace_all(&d, (double)paths, (double)both, (double)tally->rays) < 0);
+        failed = failed
+                 || (d.count > 0
+                     && trace_all(&d, s, (double)paths, (double)both, (double)tally->rays) < 0);
     }
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);

@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/dim_paths.h"
-#include "kernel/leaf_at.h"
 #include "particles/paths.h"
 #include "particles/running_sums.h"
 #include "util/ranks_loop.h"
@@ -35,8 +34,7 @@ static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], st
 {
     static const struct path_rays each = {1, 1};
     const struct tracer *t = d->tracer;
-    const struct element *elements = t->hierarchy->elements;
-    double through[3] = {1, 1, 1}, at[3], weight[4];
+    double through[3] = {1, 1, 1}, at[3];
     for (int met_before = 0;; met_before++) {
         const double from[3] = {x[0], x[1], x[2]};
         double found[3] = {0, 0, 0}, u[5], away[3], strong = 0, left = 0;
@@ -50,14 +48,12 @@ static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], st
             return;
         face = (uint32_t)met;
         if (met_before > 0 && d->of[t->hierarchy->faces[face].input] == NOT_DIM) {
-            uint32_t leaf = leaf_at(elements, t->hierarchy->face_element[face], at, weight);
+            const struct leaf_light leaf = quarter_light_at(&d->light, face, at);
             sub3(away, at, from);
-            if (dot3(away, away) > elements[leaf].area
-                && mended_irradiance(d, leaf) >= d->believed) {
+            if (dot3(away, away) > leaf.area && leaf.irradiance >= d->believed) {
                 for (uint32_t k = 0; k < t->bands; k++)
-                    h[k] += through[k]
-                            * (element_light_at(&d->light, leaf, k, at)
-                               - t->exitance[(size_t)face * t->bands + k]);
+                    h[k] +=
+                        through[k] * (leaf.radiosity[k] - t->exitance[(size_t)face * t->bands + k]);
                 return;
             }
         }

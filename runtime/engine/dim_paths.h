@@ -6,7 +6,7 @@
 #ifndef DIM_PATHS_H
 #define DIM_PATHS_H
 
-#include "engine/element_light.h"
+#include "engine/quarter_light.h"
 #include "particles/tracer.h"
 #include "particles/watch.h"
 
@@ -36,7 +36,7 @@ struct dim_faces {
     enum dim_size size;
     const struct solve *solve;
     const struct tracer *tracer;
-    struct element_light light; /* B~ */
+    struct quarter_light light; /* B~ */
     uint32_t *of;               /* [polygons of the scene]: place in `polygon`; or NOT_DIM */
     struct dim_polygon *polygon;
     uint32_t count;

@@ -27,6 +27,7 @@
 #include <unistd.h>
 
 #include "engine/refine.h"
+#include "engine/shares.h"
 #include "kernel/constants.h"
 #include "oracle/follow.h"
 #include "util/ranks.h"
@@ -68,6 +69,7 @@ struct limits limits_complete(struct limits wanted)
 }
 
 static const char *const PAIRS = "pairs";
+enum { LEAST = 1024 }; /* pairs between two questions to other ranks */
 
 static uint64_t parts_of(const struct refinement *r)
 {
@@ -95,19 +97,46 @@ const char *limits_met(const struct refinement *r)
                                          : NULL;
 }
 
-int limits_share(struct refinement *r, struct ranks *ranks, int failed)
+/* All ranks tell what they have come to. Returns how many of them go on refining. */
+static uint64_t add_up(struct refinement *r, struct ranks *ranks, int goes_on, int failed)
 {
     const int met = failed && r->met == PAIRS;
-    uint64_t all[3] = {r->pairs, (uint64_t)met, (uint64_t)(failed && !met)};
-    if (ranks_count(ranks) == 1 || r->deal)
-        return ranks_any(ranks, failed);
-    ranks_add_counts(ranks, RANKS_PAIRS, all, 3);
+    uint64_t all[4] = {r->pairs, (uint64_t)met, (uint64_t)(failed && !met), (uint64_t)goes_on};
+    ranks_add_counts(ranks, RANKS_PAIRS, all, 4);
     const int together = !all[2] && (all[1] || all[0] > r->limits.pairs);
     if (together)
         r->met = PAIRS;
     else if (met)
         r->met = NULL;
-    return together || all[2];
+    r->ended = together || all[2];
+    const uint64_t left = r->ended ? 0 : r->limits.pairs - all[0],
+                   each = all[3] ? left / all[3] : left;
+    r->allowed = r->pairs + (each > LEAST ? each : LEAST);
+    return all[3];
+}
+
+int limits_allow(struct refinement *r, int pairs)
+{
+    if (!r->shares)
+        return pairs;
+    struct ranks *ranks = r->shares->ranks;
+    if (!r->allowed)
+        r->allowed = r->limits.pairs / (uint64_t)ranks_count(ranks);
+    if (r->pairs + 2 * (uint64_t)pairs > r->allowed) /* each counts twice if both ways round */
+        add_up(r, ranks, 1, 0);
+    if (r->ended)
+        return -1;
+    const uint64_t left = (r->allowed - r->pairs) / 2;
+    return left < (uint64_t)pairs ? (int)left : pairs;
+}
+
+int limits_share(struct refinement *r, struct ranks *ranks, int failed)
+{
+    if (ranks_count(ranks) == 1 || r->deal)
+        return ranks_any(ranks, failed);
+    while (!r->ended && add_up(r, ranks, 0, failed) > 0) /* others ask whether they may go on */
+        ;
+    return r->ended;
 }
 
 /* ---- what is said */

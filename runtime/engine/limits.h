@@ -25,9 +25,14 @@ struct limits limits_complete(struct limits wanted);
  * name, and r->limits says what it is. */
 const char *limits_met(const struct refinement *r);
 
-/* The same of several ranks, each of which has refined its part and has failed or not: pairs are
- * theirs together, and a limit that one of them has met all have met, unless one failed for another
- * reason. Returns whether refinement ends here. */
+/* While several ranks refine: how many of so many pairs may this one discuss now? Pairs are theirs
+ * together, so who has had its part of them asks what the others have come to, and waits until
+ * these ask, too, or are done. Returns -1 where refinement ends on all. */
+int limits_allow(struct refinement *r, int pairs);
+
+/* The limits of several ranks, each of which has refined its part and has failed or not: one that
+ * one of them has met all have met, unless one failed for another reason. Returns whether
+ * refinement ends here. */
 int limits_share(struct refinement *r, struct ranks *ranks, int failed);
 
 /* What was reached, in a sentence or two; `graph` is the oracle interpreted, with the same

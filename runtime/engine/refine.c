@@ -17,7 +17,8 @@
  * answer (kernel/shaft.h).
  *
  * Where several ranks refine, each goes on only with the pairs that fall to it (shares_say), and
- * what is said of a pair depends on the pair alone: so they need no messages before the end.
+ * what is said of a pair depends on the pair alone: so they need no messages before the end, but to
+ * meet a limit together (limits_allow).
  * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited
  * candidates; rounds: derived here]
  * SPDX-License-Identifier: MIT */
@@ -380,7 +381,9 @@ static int discuss_all(struct refinement *r, int count)
 static int drain(struct refinement *r)
 {
     while (r->queue_count > 0) {
-        int count = (int)(r->queue_count < ROUND ? r->queue_count : ROUND);
+        int count = limits_allow(r, (int)(r->queue_count < ROUND ? r->queue_count : ROUND));
+        if (count < 0)
+            return -1;
         r->queue_count -= (size_t)count;
         r->round_count = count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);

@@ -99,6 +99,8 @@ struct refinement {
      * the last round: how many pairs; `outcomes` holds what they decided. */
     struct limits limits;
     const char *met, *none; /* none: what was no number, and ended it; NULL: all was */
+    uint64_t allowed; /* of several ranks: pairs before this one asks the others; 0: none has yet */
+    int ended;        /* of several ranks: one has met a limit or failed, and all end */
     int round_count;
     uint32_t built; /* elements before the first split */
     int deepest;    /* splits below a face, so far */

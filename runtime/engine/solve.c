@@ -105,6 +105,27 @@ static void measure_parent(const void *contacts, uint32_t i)
         c->uncovered[i] = sum;
 }
 
+/* Of new elements, and of what they are parts of: a pass makes few, and all others stay as they
+ * are. Without memory for a list, of all. */
+static void measure_parents(const struct contacts *c, int threads)
+{
+    const struct hierarchy *h = c->h;
+    uint32_t count = 0, *face = c->first ? malloc(h->face_count * sizeof *face) : NULL;
+    unsigned char *listed = face ? calloc(h->face_count, sizeof *listed) : NULL;
+    for (uint32_t i = c->first; listed && i < h->count; i++) {
+        const uint32_t f = h->elements[i].face;
+        if (!listed[f])
+            face[count++] = f;
+        listed[f] = 1;
+    }
+    if (listed)
+        children_first_of(h, threads, face, count, measure_parent, c);
+    else
+        children_first(h, threads, measure_parent, c);
+    free(listed);
+    free(face);
+}
+
 void solve_measure_contact(struct solve *s, uint32_t first, int known)
 {
     const struct hierarchy *h = &s->hierarchy;
@@ -116,7 +137,7 @@ void solve_measure_contact(struct solve *s, uint32_t first, int known)
     else
         ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
                        measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
-    children_first(h, p->options.threads, measure_parent, &contacts);
+    measure_parents(&contacts, p->options.threads);
 }
 
 void solve_average_contact(struct solve *s, uint32_t count)

@@ -5,6 +5,7 @@
 
 struct climb {
     const struct hierarchy *h;
+    const uint32_t *face; /* NULL: all */
     children_first_work *work;
     const void *context;
 };
@@ -21,7 +22,7 @@ static void climb_faces(const void *climb, size_t from, size_t to)
 {
     const struct climb *c = climb;
     for (size_t i = from; i < to; i++)
-        climb_from(c, c->h->face_element[i]);
+        climb_from(c, c->h->face_element[c->face ? c->face[i] : i]);
 }
 
 void children_first_clusters(const struct hierarchy *h, children_first_work *work,
@@ -32,10 +33,16 @@ void children_first_clusters(const struct hierarchy *h, children_first_work *wor
             work(context, e);
 }
 
+void children_first_of(const struct hierarchy *h, int threads, const uint32_t *face, uint32_t count,
+                       children_first_work *work, const void *context)
+{
+    const struct climb c = {h, face, work, context};
+    thread_pool_run(threads, count, 16, climb_faces, &c);
+    children_first_clusters(h, work, context);
+}
+
 void children_first(const struct hierarchy *h, int threads, children_first_work *work,
                     const void *context)
 {
-    const struct climb c = {h, work, context};
-    thread_pool_run(threads, h->face_count, 16, climb_faces, &c);
-    children_first_clusters(h, work, context);
+    children_first_of(h, threads, NULL, h->face_count, work, context);
 }

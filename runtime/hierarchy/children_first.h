@@ -13,6 +13,9 @@ typedef void children_first_work(const void *context, uint32_t element);
 
 void children_first(const struct hierarchy *h, int threads, children_first_work *work,
                     const void *context);
+/* The same of some faces alone, where nothing has changed below the others; then clusters. */
+void children_first_of(const struct hierarchy *h, int threads, const uint32_t *face, uint32_t count,
+                       children_first_work *work, const void *context);
 /* The part of it that comes last: clusters. */
 void children_first_clusters(const struct hierarchy *h, children_first_work *work,
                              const void *context);

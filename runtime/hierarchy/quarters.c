@@ -22,6 +22,7 @@ void quarters_close(struct quarters *q)
 {
     free(q->child);
     free(q->number);
+    free(q->place);
     *q = (struct quarters){0};
 }
 
@@ -76,34 +77,20 @@ int quarters_split(struct quarters *q, struct hierarchy *h, uint32_t leaf, doubl
     return split(q, h, &e, leaf, mine ? leaf : 0, parts);
 }
 
-/* So many numbers, of all ranks, are looked up together: some lines of memory. */
-enum { DRAWER_BITS = 6 };
-
-/* Numbers rise as a rank makes its own. */
-uint32_t *quarters_drawers(const struct quarters *q, const struct hierarchy *h)
+int quarters_place(struct quarters *q, const struct hierarchy *h, const uint16_t *owner,
+                   size_t ranks)
 {
-    const uint32_t own = h->count - q->common, count = ((q->count - q->common) >> DRAWER_BITS) + 1;
-    uint32_t *first = malloc(((size_t)count + 1) * sizeof *first), i = 0;
-    for (uint32_t d = 0; d <= count && first; d++) {
-        while (i < own && (q->number[i] - q->common) >> DRAWER_BITS < d)
-            i++;
-        first[d] = i;
+    uint32_t *made = calloc(ranks, sizeof *made), last = q->common;
+    q->place = malloc(q->common * sizeof *q->place);
+    for (uint32_t i = 0; i < q->common && made && q->place; i++) {
+        if (q->child[i] < q->common)
+            continue;
+        if (last < q->common) /* its numbers end where the next leaf's begin */
+            made[owner[h->elements[last].face]] += q->child[i] - q->child[last];
+        q->place[i] = made[owner[h->elements[i].face]];
+        last = i;
     }
-    return first;
-}
-
-uint32_t quarters_here(const struct quarters *q, const uint32_t *drawers, uint32_t number)
-{
-    if (number < q->common)
-        return number;
-    const uint32_t *drawer = &drawers[(number - q->common) >> DRAWER_BITS];
-    uint32_t low = drawer[0], high = drawer[1];
-    while (high - low > 1) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (q->number[middle] > number)
-            high = middle;
-        else
-            low = middle;
-    }
-    return q->common + low;
+    const int failed = !made || !q->place;
+    free(made);
+    return failed ? -1 : 0;
 }

@@ -19,6 +19,9 @@ struct quarters {
     uint32_t leaves;  /* of these, once they are settled (own_quarters.h) */
     uint32_t *child;  /* [count]: by number: that of the first child, or 0; NULL: all are settled */
     uint32_t *number; /* [hierarchy's count - common]: of element common + i here */
+    /* [common]: of a leaf that has quarters, how many its owner made before them; NULL before
+     * quarters_place */
+    uint32_t *place;
     size_t child_capacity, number_capacity;
 };
 
@@ -37,11 +40,16 @@ static inline uint32_t quarters_number(const struct quarters *q, uint32_t elemen
     return q && q->common && element >= q->common ? q->number[element - q->common] : element;
 }
 
-/* What numbers are looked up in, until a quarter more is made. To be freed; NULL when out of
- * memory. */
-uint32_t *quarters_drawers(const struct quarters *q, const struct hierarchy *h);
+/* Once leaves have been split, in the order of their indices: where the quarters of each are with
+ * its owner, owner[face] of so many ranks. Returns 0, or -1 when out of memory. */
+int quarters_place(struct quarters *q, const struct hierarchy *h, const uint16_t *owner,
+                   size_t ranks);
 
-/* The element here that has the number; there is one. */
-uint32_t quarters_here(const struct quarters *q, const uint32_t *drawers, uint32_t number);
+/* The element that has the number, with the owner of the face; leaf: of those that all have, the
+ * one that it is, or is a part of. */
+static inline uint32_t quarters_at_owner(const struct quarters *q, uint32_t leaf, uint32_t number)
+{
+    return number < q->common ? number : q->common + q->place[leaf] + (number - q->child[leaf]);
+}
 
 #endif

@@ -1,11 +1,12 @@
 /* landing_mail.c - see landing_mail.h.
  * SPDX-License-Identifier: MIT */
 #include "particles/landing_mail.h"
+#include <stdatomic.h>
 #include <stdlib.h>
 #include "util/array.h"
 
-void mail_landing(struct mail *mail, struct tally *tally, int replicate, uint32_t face,
-                  uint32_t number, const int64_t w[3])
+void mail_landing(struct mail *mail, const struct tally *tally, int replicate, uint32_t face,
+                  uint32_t leaf, const int64_t w[3])
 {
     if (mail->failed
         || array_reserve(&mail->letter, mail->count + 1, &mail->capacity, sizeof *mail->letter)
@@ -14,14 +15,14 @@ void mail_landing(struct mail *mail, struct tally *tally, int replicate, uint32_
         return;
     }
     struct letter *l = &mail->letter[mail->count++];
-    *l = (struct letter){.number = tally->element ? number : face,
+    *l = (struct letter){.at = tally->element ? leaf : face,
                          .replicate = (uint16_t)replicate,
                          .owner = tally->owner[face]};
     for (uint32_t k = 0; k < tally->bands; k++)
         l->count[k] = (uint32_t)w[k];
 }
 
-/* As it is sent: the number; then counts, each in 28 bits, the replicate above the first one's. */
+/* As it is sent: where; then counts, each in 28 bits, the replicate above the first one's. */
 enum { COUNT_BITS = 28 };
 _Static_assert(REPLICATES <= 1 << (32 - COUNT_BITS), "a replicate has room beside a count");
 
@@ -32,32 +33,33 @@ static size_t words(const struct tally *tally)
 
 static void pack(const struct tally *tally, const struct letter *l, uint32_t *to)
 {
-    to[0] = l->number;
+    to[0] = l->at;
     for (uint32_t k = 0; k < tally->bands; k++)
         to[1 + k] = l->count[k];
     to[1] |= (uint32_t)l->replicate << COUNT_BITS;
 }
 
-/* Count some that came, as they were packed. Where each is counted is looked up first: they wait
- * for memory together. */
-enum { TOGETHER = 64 };
+/* No thread counts while letters are read: so additions need not wait for each other. */
+static void add(_Atomic int64_t *count, int64_t w)
+{
+    const int64_t before = atomic_load_explicit(count, memory_order_relaxed);
+    atomic_store_explicit(count, before + w, memory_order_relaxed);
+}
 
+/* Count what came, as it was packed. */
 static void count_packed(struct tally *tally, const uint32_t *from, size_t count)
 {
-    const uint32_t mask = (1u << COUNT_BITS) - 1;
-    uint32_t leaf[TOGETHER] = {0}, face[TOGETHER];
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t number = from[i * words(tally)];
-        if (tally->element)
-            leaf[i] = quarters_here(tally->quarters, tally->drawers, number);
-        face[i] = tally->element ? tally->hierarchy->elements[leaf[i]].face : number;
-        tally_prefetch(tally, (int)(from[i * words(tally) + 1] >> COUNT_BITS), face[i], leaf[i]);
-    }
+    const uint32_t mask = (1u << COUNT_BITS) - 1, bands = tally->bands;
     for (size_t i = 0; i < count; i++, from += words(tally)) {
-        int64_t w[3] = {0, 0, 0};
-        for (uint32_t k = 0; k < tally->bands; k++)
-            w[k] = from[1 + k] & mask;
-        tally_count(tally, (int)(from[1] >> COUNT_BITS), face[i], leaf[i], w);
+        const size_t place =
+                         tally->element ? tally->leaf_place[from[0]] : tally_place(tally, from[0]),
+                     at = (size_t)(from[1] >> COUNT_BITS) * tally->held + place;
+        for (uint32_t k = 0; k < bands; k++) {
+            const int64_t w = from[1 + k] & mask;
+            add(&tally->face[at * bands + k], w);
+            if (tally->element)
+                add(&tally->element[(size_t)from[0] * bands + k], w);
+        }
     }
 }
 
@@ -97,8 +99,7 @@ int mail_send(struct mail *mail, int batches, struct tally *tally, struct ranks 
         in = ranks_exchange(ranks, RANKS_PARTICLES, out, size * sizeof *out, count, count + n);
     for (size_t k = 0; k < n && in; k++)
         came += count[n + k];
-    for (size_t i = 0; i < came; i += TOGETHER)
-        count_packed(tally, &in[i * size], came - i < TOGETHER ? came - i : TOGETHER);
+    count_packed(tally, in, came);
     failed = !in;
     free(in);
     free(out);

@@ -17,7 +17,7 @@ enum { MAIL_BATCHES = 32 };
 
 /* To the owner of a face: what has landed there. */
 struct letter {
-    uint32_t number; /* of the leaf; where leaves are not counted on, of the face */
+    uint32_t at; /* the leaf, as the owner has it; where leaves are not counted on, the face */
     uint16_t replicate, owner;
     uint32_t count[3]; /* by band: of a particle that is not split, at the most ONE_WHOLE */
 };
@@ -29,11 +29,11 @@ struct mail {
     int failed; /* out of memory: some are lost */
 };
 
-/* Count w on a face of this rank's, and on a leaf of it by its index here. */
-static inline void tally_count(struct tally *tally, int replicate, uint32_t face, uint32_t leaf,
+/* Count w on a face of this rank's, by its place, and on a leaf of it by its index here. */
+static inline void tally_count(struct tally *tally, int replicate, size_t place, uint32_t leaf,
                                const int64_t w[3])
 {
-    const size_t at = (size_t)replicate * tally->held + tally_place(tally, face);
+    const size_t at = (size_t)replicate * tally->held + place;
     for (uint32_t k = 0; k < tally->bands; k++) {
         tally->face[at * tally->bands + k] += w[k];
         if (tally->element)
@@ -42,18 +42,18 @@ static inline void tally_count(struct tally *tally, int replicate, uint32_t face
 }
 
 /* Additions would wait for memory one after the other. */
-static inline void tally_prefetch(const struct tally *tally, int replicate, uint32_t face,
+static inline void tally_prefetch(const struct tally *tally, int replicate, size_t place,
                                   uint32_t leaf)
 {
-    const size_t at = (size_t)replicate * tally->held + tally_place(tally, face);
+    const size_t at = (size_t)replicate * tally->held + place;
     __builtin_prefetch((const void *)&tally->face[at * tally->bands], 1);
     if (tally->element)
         __builtin_prefetch((const void *)&tally->element[(size_t)leaf * tally->bands], 1);
 }
 
-/* Write to the owner of the face; number: of the leaf. */
-void mail_landing(struct mail *mail, struct tally *tally, int replicate, uint32_t face,
-                  uint32_t number, const int64_t w[3]);
+/* Write to the owner of the face; leaf: as the owner has it. */
+void mail_landing(struct mail *mail, const struct tally *tally, int replicate, uint32_t face,
+                  uint32_t leaf, const int64_t w[3]);
 
 /* Send what has been written in so many batches, and count what comes. Returns 0, or -1 on all
  * ranks when any is out of memory: then the tally is of no use. */

@@ -61,11 +61,13 @@ struct batch {
     struct landing landing[LANDINGS]; /* [landed]: not counted yet */
 };
 
-/* The leaves that hold them. All go down level by level, side by side: each waits for memory at
- * every level, and so they wait together. */
+/* The leaves that hold them, as owners of their faces have them. All go down level by level, side
+ * by side: each waits for memory at every level, and so they wait together. */
 static void find_leaves(const struct tally *tally, const struct tracer *t,
                         const struct landing *landing, int count, uint32_t *leaf)
 {
+    const struct quarters *q = tally->quarters;
+    const uint32_t common = q ? q->common : 0;
     struct leaf_walk walk[LANDINGS];
     for (int i = 0; i < count; i++)
         walk[i] = leaf_walk_from(t->hierarchy->elements,
@@ -76,12 +78,14 @@ static void find_leaves(const struct tally *tally, const struct tracer *t,
             const uint32_t child = tally->first[walk[i].at];
             if (!child)
                 continue;
+            if (walk[i].at < common)
+                leaf[i] = walk[i].at; /* in the end the leaf that all have */
             leaf_walk_down(&walk[i], child);
             more = 1;
         }
     }
     for (int i = 0; i < count; i++)
-        leaf[i] = walk[i].at;
+        leaf[i] = q ? quarters_at_owner(q, leaf[i], walk[i].at) : walk[i].at;
 }
 
 /* Count what has landed. Returns the leaf of the last, or 0 where leaves are not counted on. */
@@ -90,15 +94,15 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
     const int count = batch->landed;
     uint32_t leaf[LANDINGS] = {0};
     int here[LANDINGS];
+    size_t place[LANDINGS];
     if (tally->element)
         find_leaves(tally, t, batch->landing, count, leaf);
     const uint32_t last = count > 0 ? leaf[count - 1] : 0;
     for (int i = 0; i < count; i++) {
         here[i] = !batch->mail || tally_holds(tally, batch->landing[i].face);
-        if (here[i] && batch->mail && tally->element)
-            leaf[i] = quarters_here(tally->quarters, tally->drawers, leaf[i]);
+        place[i] = here[i] ? tally_place(tally, batch->landing[i].face) : 0;
         if (here[i])
-            tally_prefetch(tally, batch->replicate, batch->landing[i].face, leaf[i]);
+            tally_prefetch(tally, batch->replicate, place[i], leaf[i]);
     }
     for (int i = 0; i < count; i++) {
         const struct landing *l = &batch->landing[i];
@@ -109,7 +113,7 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
             batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
         }
         if (here[i])
-            tally_count(tally, batch->replicate, l->face, leaf[i], w);
+            tally_count(tally, batch->replicate, place[i], leaf[i], w);
         else
             mail_landing(batch->mail, tally, batch->replicate, l->face, leaf[i], w);
     }

@@ -33,17 +33,18 @@
 #include "particles/watch.h"
 
 enum { REPLICATES = 16 };
+#define FACE_ELSEWHERE UINT32_MAX
 
 /* What has been counted. */
 struct tally {
     uint32_t faces, elements, bands; /* elements: of the hierarchy here */
     /* borrowed; NULL: this rank has the counts of all faces. Else it has those of its own, `held`
-     * of them, order[first_held] .. in the tree's order; faces' owners are as they were when it was
-     * opened */
+     * of them, in the tree's order; faces' owners are as they were when it was opened */
     const struct quarters *quarters;
     const struct hierarchy *hierarchy;
     const uint16_t *owner; /* [face]; good until faces are dealt out anew */
-    uint32_t held, first_held;
+    uint32_t held;
+    uint32_t *place;       /* [face]: of those that are held; else FACE_ELSEWHERE. NULL: all are */
     uint64_t stream;       /* which random numbers: tallies of two streams are independent */
     uint64_t particles;    /* of each replicate, so far */
     uint64_t rays;         /* cast for them */
@@ -59,9 +60,9 @@ struct tally {
     double correction[REPLICATES + 1][3];
     uint32_t *made; /* owned; what `first` is of where the hierarchy has all */
     const uint32_t
-        *first;        /* [number]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
-    uint32_t *drawers; /* of quarters: quarters_drawers; NULL without leaves */
-    double *square;    /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
+        *first;           /* [number]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
+    uint32_t *leaf_place; /* [elements]: place of the face; NULL likewise, and without leaves */
+    double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
     int by_paths;            /* 1: paths stand for particles (path_tally.h) */
@@ -107,17 +108,13 @@ static inline double tally_unit(const struct tally *tally)
 /* Has this rank the counts of a face? */
 static inline int tally_holds(const struct tally *tally, uint32_t face)
 {
-    if (!tally->quarters)
-        return 1;
-    const struct hierarchy *h = tally->hierarchy;
-    return h->range[h->face_element[face]].from - tally->first_held < tally->held;
+    return !tally->place || tally->place[face] != FACE_ELSEWHERE;
 }
 
 /* Where these are in a replicate's. */
 static inline size_t tally_place(const struct tally *tally, uint32_t face)
 {
-    const struct hierarchy *h = tally->hierarchy;
-    return tally->quarters ? h->range[h->face_element[face]].from - tally->first_held : face;
+    return tally->place ? tally->place[face] : face;
 }
 
 /* Power that a face receives in a band (W), by one replicate. */

@@ -34,6 +34,7 @@ static void add_faces(const void *balancing, size_t from, size_t to)
 {
     const struct balancing *x = balancing;
     const struct tally *tally = x->tally;
+    const double unit = tally_unit(tally); /* corrections are still 0 */
     for (size_t r = from; r < to; r++)
         for (uint32_t k = 0; k < tally->bands; k++) {
             /* in sums of its own: a line of memory that two threads write is slow */
@@ -41,8 +42,12 @@ static void add_faces(const void *balancing, size_t from, size_t to)
             for (uint32_t f = 0; f < tally->faces; f++) {
                 if (!tally_holds(tally, f))
                     continue;
-                const double rho = x->t->reflectance[(size_t)f * tally->bands + k],
-                             power = tally_face(tally, (int)r, f, k);
+                const double
+                    rho = x->t->reflectance[(size_t)f * tally->bands + k],
+                    power =
+                        unit
+                        * (double)tally
+                              ->face[(r * tally->held + tally_place(tally, f)) * tally->bands + k];
                 reflected += rho * power;
                 ended += (1 - rho) * power;
             }

@@ -24,8 +24,11 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
         tally->quarters = q;
         tally->hierarchy = h;
         tally->owner = t->owner;
-        tally->first_held = (uint32_t)mine[0];
         tally->held = (uint32_t)(mine[1] - mine[0]);
+        tally->place = malloc(tally->faces * sizeof *tally->place);
+        for (uint32_t i = 0; i < tally->faces && tally->place; i++)
+            tally->place[h->order[i]] =
+                i - mine[0] < tally->held ? (uint32_t)(i - mine[0]) : FACE_ELSEWHERE;
     }
     tally->face = calloc((size_t)REPLICATES * tally->held * bands + 1, sizeof *tally->face);
     tally->back = calloc((size_t)tally->faces + 1, sizeof *tally->back);
@@ -33,14 +36,17 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
     if (leaves) {
         tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
         tally->made = q ? NULL : malloc(tally->elements * sizeof *tally->made);
-        tally->drawers = q ? quarters_drawers(q, h) : NULL;
+        tally->leaf_place = q ? malloc(tally->elements * sizeof *tally->leaf_place) : NULL;
         tally->first = q ? q->child : tally->made;
     }
-    if (!tally->face || !tally->back || !tally->square
-        || (leaves && (!tally->element || !tally->first || (q && !tally->drawers)))) {
+    if (!tally->face || !tally->back || !tally->square || (q && !tally->place)
+        || (leaves && (!tally->element || !tally->first || (q && !tally->leaf_place)))) {
         tally_close(tally);
         return -1;
     }
+    for (uint32_t i = 0; leaves && q && i < tally->elements; i++)
+        if (h->elements[i].vertices)
+            tally->leaf_place[i] = tally->place[h->elements[i].face];
     for (uint32_t i = 0; leaves && !q && i < tally->elements; i++) {
         const struct element *e = &h->elements[i];
         tally->made[i] = e->children ? e->child : 0;
@@ -52,10 +58,10 @@ void tally_forget_leaves(struct tally *tally)
 {
     free(tally->element);
     free(tally->made);
-    free(tally->drawers);
+    free(tally->leaf_place);
     tally->element = NULL;
     tally->made = NULL;
-    tally->drawers = NULL;
+    tally->leaf_place = NULL;
     tally->first = NULL;
 }
 
@@ -65,7 +71,8 @@ void tally_close(struct tally *tally)
     free(tally->back);
     free(tally->element);
     free(tally->made);
-    free(tally->drawers);
+    free(tally->leaf_place);
+    free(tally->place);
     free(tally->square);
     free(tally->until);
     free(tally->carried);

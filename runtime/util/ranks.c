@@ -25,7 +25,7 @@ enum reduction { SUM_OF_COUNTS, SUM, MOST, ANY };
 #ifdef RADIOSITY_MPI
 
 enum { PIECE = 1 << 28 }; /* items that one call of MPI's is given, which counts by int */
-enum { ASKED_WITHOUT_PAUSE = 200, PAUSE = 20000 }; /* ns; Linux adds 50,000 */
+enum { ASKED_WITHOUT_PAUSE = 200, PAUSE = 20000, LONGEST = 2000000 }; /* ns; Linux adds 50,000 */
 
 /* Of MPI that has begun. Returns NULL, or why not. */
 static const char *join(struct ranks *r, const void *communicator)
@@ -46,18 +46,28 @@ static void fail(const struct ranks *r)
     MPI_Abort(r->all, 1);
 }
 
-/* Wait until all are here. MPI's own calls wait by asking without end, which costs as much as work
- * does, and takes it from others where ranks share processors. So who is early asks for a while,
- * and then from time to time; what is sent afterwards finds all ready. */
+/* Wait until it is done. MPI's own calls wait by asking without end, which costs as much as work
+ * does, and takes it from others where ranks share processors. So who waits asks for a while, and
+ * then from time to time. To wake is work, too: each pause is a quarter longer than the one before,
+ * and so about a fifth of what has been waited. */
+static void finish(MPI_Request request)
+{
+    struct timespec pause = {0, PAUSE};
+    int done = 0;
+    for (int asked = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done; asked++)
+        if (asked >= ASKED_WITHOUT_PAUSE) {
+            nanosleep(&pause, NULL);
+            pause.tv_nsec += pause.tv_nsec < LONGEST ? pause.tv_nsec / 4 : 0;
+        }
+}
+
+/* Wait until all are here: what is sent afterwards takes several steps, and who has slept long
+ * would sleep long at each. */
 static void meet(const struct ranks *r)
 {
-    const struct timespec pause = {0, PAUSE};
     MPI_Request request;
-    int there = 0;
     MPI_Ibarrier(r->all, &request);
-    for (int asked = 0; MPI_Test(&request, &there, MPI_STATUS_IGNORE), !there; asked++)
-        if (asked >= ASKED_WITHOUT_PAUSE)
-            nanosleep(&pause, NULL);
+    finish(request);
 }
 
 /* Values of 8 bytes; ANY: ints. */
@@ -67,10 +77,12 @@ static void reduce(const struct ranks *r, enum reduction how, void *value, size_
                               : how == ANY         ? MPI_INT
                                                    : MPI_DOUBLE;
     const MPI_Op op = how == SUM || how == SUM_OF_COUNTS ? MPI_SUM : MPI_MAX;
+    MPI_Request request;
     meet(r);
     for (size_t from = 0; from < count; from += PIECE) {
         const size_t n = count - from < PIECE ? count - from : PIECE;
-        MPI_Allreduce(MPI_IN_PLACE, (char *)value + 8 * from, (int)n, type, op, r->all);
+        MPI_Iallreduce(MPI_IN_PLACE, (char *)value + 8 * from, (int)n, type, op, r->all, &request);
+        finish(request);
     }
 }
 
@@ -87,8 +99,11 @@ static MPI_Datatype type_of(size_t size)
 static void gather(const struct ranks *r, void *array, size_t size)
 {
     MPI_Datatype type = type_of(size);
+    MPI_Request request;
     meet(r);
-    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, array, r->counts, r->places, type, r->all);
+    MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, array, r->counts, r->places, type, r->all,
+                    &request);
+    finish(request);
     MPI_Type_free(&type);
 }
 
@@ -96,25 +111,32 @@ static void gather(const struct ranks *r, void *array, size_t size)
 static void exchange(const struct ranks *r, const void *items, void *to, size_t size)
 {
     MPI_Datatype type = type_of(size);
+    MPI_Request request;
     meet(r);
-    MPI_Alltoallv(items, r->counts, r->places, type, to, r->counts + r->count, r->places + r->count,
-                  type, r->all);
+    MPI_Ialltoallv(items, r->counts, r->places, type, to, r->counts + r->count,
+                   r->places + r->count, type, r->all, &request);
+    finish(request);
     MPI_Type_free(&type);
 }
 
 static void exchange_one(const struct ranks *r, const size_t *to_each, size_t *from_each)
 {
+    MPI_Request request;
     meet(r);
-    MPI_Alltoall(to_each, sizeof *to_each, MPI_BYTE, from_each, sizeof *from_each, MPI_BYTE,
-                 r->all);
+    MPI_Ialltoall(to_each, sizeof *to_each, MPI_BYTE, from_each, sizeof *from_each, MPI_BYTE,
+                  r->all, &request);
+    finish(request);
 }
 
 static void tell(const struct ranks *r, char *item, size_t size)
 {
+    MPI_Request request;
     meet(r);
-    for (size_t from = 0; from < size; from += PIECE)
-        MPI_Bcast(item + from, (int)(size - from < PIECE ? size - from : PIECE), MPI_BYTE, 0,
-                  r->all);
+    for (size_t from = 0; from < size; from += PIECE) {
+        MPI_Ibcast(item + from, (int)(size - from < PIECE ? size - from : PIECE), MPI_BYTE, 0,
+                   r->all, &request);
+        finish(request);
+    }
 }
 
 #else
@@ -291,6 +313,7 @@ void ranks_exchange_known(struct ranks *r, enum ranks_kind kind, const void *ite
             memcpy(to, items, count[0] * size);
         return;
     }
+    static const char nothing; /* Open MPI takes equal addresses for one array, if empty, too */
     size_t sent = 0, came = 0;
     for (int k = 0; k < n; k++) {
         r->counts[k] = (int)count[k];
@@ -301,7 +324,7 @@ void ranks_exchange_known(struct ranks *r, enum ranks_kind kind, const void *ite
         came += from[k];
         r->sent[kind] += k == r->number ? 0 : count[k] * size;
     }
-    exchange(r, items, to, size);
+    exchange(r, sent ? items : &nothing, to, size);
 }
 
 void *ranks_exchange(struct ranks *r, enum ranks_kind kind, const void *items, size_t size,

@@ -53,6 +53,7 @@ static void open_parted(struct parted *x, uint32_t mine)
             ck_assert_int_eq(quarters_split(&x->quarters, h, i, 1 + 15 * (i % 2),
                                             !x->owner[h->elements[i].face]),
                              0);
+    ck_assert_int_eq(quarters_place(&x->quarters, h, x->owner, 2), 0);
     ck_assert_int_eq(solve_make_room(&x->s), 0);
     for (uint32_t i = common; i < h->count; i++)
         x->s.state.irradiance[i] = x->s.state.irradiance[h->elements[i].parent];
@@ -155,23 +156,23 @@ START_TEST(test_first_of_two)
     ck_assert_int_eq(tally_open(&own, &t, 1, 1), 0);
     ck_assert_uint_eq(own.held, MINE);
     for (uint32_t i = 0; i < h->face_count; i++) { /* on the face's last quarter */
-        uint32_t number = h->face_element[h->order[i]];
-        while (x.quarters.child[number])
-            number = x.quarters.child[number] + 3;
+        uint32_t number = h->face_element[h->order[i]], leaf = number;
+        for (; x.quarters.child[number]; number = x.quarters.child[number] + 3)
+            leaf = number < x.quarters.common ? number : leaf;
+        const uint32_t e = quarters_at_owner(&x.quarters, leaf, number);
         ck_assert_int_eq(tally_holds(&own, h->order[i]), i < MINE);
         if (i < MINE) {
-            const uint32_t e = quarters_here(&x.quarters, own.drawers, number);
             ck_assert_uint_eq(quarters_number(&x.quarters, e), number);
             ck_assert_uint_eq(h->elements[e].face, h->order[i]);
-            tally_count(&own, 2, h->order[i], e, w);
+            tally_count(&own, 2, tally_place(&own, h->order[i]), e, w);
             ck_assert_int_eq(own.element[e], w[0]);
             ck_assert_int_eq(own.face[2 * MINE + i], w[0]);
             continue;
         }
-        mail_landing(&mail, &own, 2, h->order[i], number, w);
+        mail_landing(&mail, &own, 2, h->order[i], e, w);
         ck_assert_uint_eq(mail.count, i - MINE + 1);
         const struct letter *l = &mail.letter[mail.count - 1];
-        ck_assert_uint_eq(l->number, number);
+        ck_assert_uint_eq(l->at, e);
         ck_assert(l->owner == 1 && l->replicate == 2 && l->count[0] == w[0]);
     }
     mail_close(&mail, 1);

@@ -76,6 +76,7 @@ if [ -n "${THOROUGH:-}" ]; then
     grid=$top/../shared/scenes/gridroom_10000.obj
     if [ -f "$grid" ]; then compare_ranks "$grid" 2 4; else echo "skipped: no gridroom"; fi
 fi
+below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > 0 && a <= b) }'; }
 # ---- a limit on pairs is one of all ranks together: three quarters of the pairs are more than a rank of two discusses
 "$radiosity" solve "$scenes/cornell.obj" -q --scale 1 --no-correct --json one.json
 pairs=$(value one.json pairs)
@@ -83,13 +84,15 @@ several 2 "$radiosity" solve "$scenes/cornell.obj" -q --scale 1 --no-correct --l
 status=$?
 check "a limit on pairs that two ranks meet together: exit status $status: $(head -n 3 said)" \
     [ $status = 1 -a "$(grep -c "did not end within pairs=$((pairs * 3 / 4))" said)" = 1 ]
+several 2 "$radiosity" solve "$scenes/cornell.obj" -q --scale 1 --no-correct --limit pairs=$((pairs / 4)) >said 2>&1
+discussed=$(sed -n 's/.*has discussed \([0-9]*\) pairs.*/\1/p' said) # while one refines it does not go beyond what both may
+check "a limit of $((pairs / 4)) pairs, of which one of two ranks has discussed $discussed" below "$discussed" $((pairs / 4))
 several 2 "$radiosity" solve "$scenes/cornell.obj" -q --scale 1 --no-correct --limit pairs="$pairs" --json several.json >said 2>&1
 check "a limit on pairs that nobody meets: exit status $?: $(head -n 3 said)" [ "$(value several.json pairs)" = "$pairs" ]
 rm -f several.json
 # ---- what each has and tells: no rank has the quarters that particles are counted on of all faces, and a sweep tells of what
 # groups alone take as little as they read. Meshes, which all quarters are needed for, have the bytes of one process.
 ranks_most() { sed -n "s/^ *\"$1\": \([0-9.]*\),*$/\1/p" several.json | sort -g | tail -n 1; } # KEY: of the ranks' values
-below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > 0 && a <= b) }'; }
 boxes() { # FACES
     awk -v FACES="$1" -v MATERIALS=boxes.mtl -f "$top/tests/studies/room_of_boxes.awk" >boxes.obj
     "$radiosity" solve boxes.obj --scale 16 -q --threads 1 --json one.json -o one.ply
@@ -117,7 +120,10 @@ if [ -n "${THOROUGH:-}" ]; then
     check "2000 boxes: $told bytes told in sweeps of $ghosts elements" \
         below "$told" "$(awk "BEGIN { print 8 * $ghosts * $(value one.json iterations) }")"
 fi
-# Paths of dim polygons end in all quarters.
+# Paths of dim polygons end in all quarters; but of others' they take the light, and not the quarters.
+several 3 "$radiosity" solve "$scenes/room.obj" -q --json several.json >said 2>&1
+held=$(sed -n 's/^      "elements": \([0-9]*\),*$/\1/p' several.json | sort -n | tr '\n' ' ')
+check "room: 3 ranks have had $held elements, as if each had all: $(head -n 3 said)" below "${held%% *}" "$(ranks_most elements | awk '{ print .7 * $1 }')"
 "$radiosity" solve "$scenes/cornell.obj" -q -o one.ply
 several 3 "$radiosity" solve "$scenes/cornell.obj" -q -o several.ply >said 2>&1
 check "cornell: another mesh on 3 ranks: $(head -n 3 said)" cmp one.ply several.ply

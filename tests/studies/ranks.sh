@@ -70,7 +70,7 @@ What follows.
 - **Memory falls** as far as it is quarters that particles are counted on, and what is counted: a rank has quarters of its own faces
   (264 bytes each, and the numbers that go with them), counts of its own faces and of these, and what it takes to mend them; of others'
   quarters it has what their numbers are. What does not fall: elements that links know of, and Embree's structure over all
-  faces. Embree keeps pointers in its structure, so processes cannot share it: give a machine one rank, with threads. A mesh of the solution, a picture, paths of dim polygons and errors of surfaces need all
+  faces. Embree keeps pointers in its structure, so processes cannot share it: give a machine one rank, with threads. A mesh of the solution, a picture, particles that are split for dim polygons and errors of surfaces need all
   quarters: then all ranks get them. Of a gridroom of 150,196 faces one process takes 1110 MB and
   each of 4 ranks 420 to 429, in a run apart from this table.
 - **A sweep tells of nearly every face**, not of the surface between parts: groups are linked far and wide, and each link weighs the faces
