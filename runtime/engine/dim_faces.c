@@ -184,7 +184,7 @@ static int keep_dim(struct dim_faces *d, const struct tally *tally)
 static double believed(const struct dim_faces *d, const struct tally *tally)
 {
     double met = DIM_LARGE * (double)tally->particles * REPLICATES;
-    return tally->by_paths ? 0 : mended_irradiance(d, 0) * DIM_BELIEVED / met;
+    return tally->by_paths ? 0 : mended_irradiance(d->solve, 0) * DIM_BELIEVED / met;
 }
 
 /* ---- how many, and what they say */
@@ -326,11 +326,11 @@ static double near_power(double x)
 static void set_windows(const struct dim_faces *d, float *window)
 {
     const struct hierarchy *h = d->tracer->hierarchy;
-    const double mean = mended_irradiance(d, 0);
+    const double mean = mended_irradiance(d->solve, 0);
     for (uint32_t e = 0; e < h->count; e++) {
         const struct element *at = &h->elements[e];
         const struct dim_polygon *p = at->vertices ? polygon_of(d, at->face) : NULL;
-        double here = mended_irradiance(d, e), before = 0, after = 0;
+        double here = mended_irradiance(d->solve, e), before = 0, after = 0;
         for (uint32_t k = 0; p && k < d->tracer->bands; k++) {
             before += p->mended[k];
             after += dim_mean(d, p, k);

@@ -20,14 +20,6 @@
 /* Random numbers that nothing else takes; each polygon has its own. */
 static const uint64_t STREAM = (uint64_t)0x64696d << 32;
 
-double mended_irradiance(const struct dim_faces *d, uint32_t element)
-{
-    double sum = 0;
-    for (uint32_t k = 0; k < d->tracer->bands; k++)
-        sum += d->solve->mended.irradiance[(size_t)element * d->tracer->bands + k];
-    return sum;
-}
-
 /* What one path from x, just in front of the face, finds: h[bands], 0 before. */
 static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], struct dice *dice,
                        double *h, uint64_t *rays)

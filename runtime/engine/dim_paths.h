@@ -48,9 +48,6 @@ struct dim_faces {
     uint64_t *rays;
 };
 
-/* Once mended, all bands (W/m2). */
-double mended_irradiance(const struct dim_faces *d, uint32_t element);
-
 /* Trace until each polygon has the paths it wants, in whole blocks. Returns 0, or -1 when out of
  * memory or stopped. */
 int dim_paths_trace(struct dim_faces *d);

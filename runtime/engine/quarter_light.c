@@ -14,7 +14,7 @@
 #include "kernel/leaf_at.h"
 #include "kernel/surface.h"
 
-static double irradiance_of(const struct solve *s, uint32_t element)
+double mended_irradiance(const struct solve *s, uint32_t element)
 {
     double sum = 0;
     for (uint32_t k = 0; k < s->problem.bands; k++)
@@ -26,7 +26,7 @@ static double irradiance_of(const struct solve *s, uint32_t element)
 static void put(const struct quarter_light *q, uint32_t element, double *to)
 {
     const size_t bands = q->light.bands;
-    to[0] = irradiance_of(q->solve, element);
+    to[0] = mended_irradiance(q->solve, element);
     memcpy(to + 1, &q->light.mean[element * bands], bands * sizeof *to);
     if (q->light.gradient)
         memcpy(to + 1 + bands, &q->light.gradient[3 * element * bands], 3 * bands * sizeof *to);
@@ -66,7 +66,8 @@ void quarter_light_close(struct quarter_light *q)
 static struct leaf_light of_element(const struct quarter_light *q, uint32_t leaf,
                                     const double point[3])
 {
-    struct leaf_light l = {q->light.elements[leaf].area, irradiance_of(q->solve, leaf), {0, 0, 0}};
+    struct leaf_light l = {
+        q->light.elements[leaf].area, mended_irradiance(q->solve, leaf), {0, 0, 0}};
     for (uint32_t k = 0; k < q->light.bands; k++)
         l.radiosity[k] = element_light_at(&q->light, leaf, k, point);
     return l;

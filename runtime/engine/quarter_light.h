@@ -7,6 +7,9 @@
 
 #include "engine/element_light.h"
 
+/* Of an element here, all bands (W/m2). */
+double mended_irradiance(const struct solve *solve, uint32_t element);
+
 struct quarter_light {
     const struct solve *solve;
     struct element_light light; /* of elements here */

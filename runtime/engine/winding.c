@@ -43,7 +43,9 @@ static double winding_number(const struct hierarchy *h, const double p[3])
     double sum = 0;
     for (uint32_t i = 0; i < h->face_count; i++) {
         const struct face *f = &h->faces[i];
-        for (uint32_t j = 2; j < f->vertices && f->light != FACE_DARK; j++)
+        if (f->light == FACE_DARK)
+            continue;
+        for (uint32_t j = 2; j < f->vertices; j++)
             sum += triangle_angle(p, f->vertex[0], f->vertex[j - 1], f->vertex[j]);
     }
     return sum / (4 * LAMBERT_PI);

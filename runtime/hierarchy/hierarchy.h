@@ -29,6 +29,13 @@ static inline int face_shades(const struct face *f)
     return f->light == FACE_LIT ? !f->back : f->light == FACE_ALONE;
 }
 
+/* Is it the front of a face with two sides, whose far side is the next face? */
+static inline int face_is_pair(const struct face *faces, uint32_t count, uint32_t front)
+{
+    const struct face *f = &faces[front];
+    return !f->back && front + 1 < count && f[1].back && f[1].input == f->input;
+}
+
 struct hierarchy {
     /* [count]; element 0 is the root; children of one element are neighbours */
     struct element *elements;

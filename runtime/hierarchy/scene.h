@@ -56,11 +56,9 @@ int scene_build(struct scene *scene, const struct RadPolygons *polygons,
                 struct scene_error *error);
 void scene_free(struct scene *scene);
 
-/* Is it the front of a face with two sides, whose far side is the next face? */
 static inline int scene_is_pair(const struct scene *s, uint32_t front)
 {
-    const struct face *f = &s->faces[front];
-    return !f->back && front + 1 < s->face_count && f[1].back && f[1].input == f->input;
+    return face_is_pair(s->faces, s->face_count, front);
 }
 
 #endif

@@ -19,6 +19,8 @@
 
 #include "geometry.h"
 #include "kernel/constants.h"
+#include "kernel/hemisphere.h"
+#include "kernel/lambert.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
 
@@ -51,12 +53,13 @@ struct stretch {
     uint32_t face;
 };
 
-/* An edge as it is looked at, square to it u and v (unit vectors, as `along`). */
+/* An edge as it is looked at; square to it are across.u and across.v. */
 struct axis {
     const struct hierarchy *h;
     const struct edge *edge; /* [shared]: of so many faces */
     size_t shared;
-    double along[3], u[3], v[3], length, touch; /* m; nearer than that is the same place */
+    struct hemisphere across;
+    double along[3], length, touch; /* m; nearer than that is the same place */
 };
 
 uint32_t sides_space(struct sides *s, uint32_t side)
@@ -131,18 +134,9 @@ static int axis_of(struct axis *x, const struct hierarchy *h, const struct edge 
     x->length = length3(x->along);
     if (!(x->length > 0))
         return 0;
-    int least = 0;
-    for (int k = 0; k < 3; k++) {
-        x->along[k] /= x->length;
-        least = fabs(x->along[k]) < fabs(x->along[least]) ? k : least;
-    }
-    double axis[3] = {0, 0, 0};
-    axis[least] = 1;
-    cross3(x->u, x->along, axis);
-    double size = length3(x->u);
     for (int k = 0; k < 3; k++)
-        x->u[k] /= size;
-    cross3(x->v, x->along, x->u);
+        x->along[k] /= x->length;
+    x->across = hemisphere_over(x->along);
     return 1;
 }
 
@@ -153,8 +147,8 @@ static struct wing wing_of(const struct axis *x, uint32_t face, const double dir
     double over[3];
     cross3(over, x->along, direction);
     const uint32_t behind = dot3(over, element_of(x->h, face)->normal) > 0;
-    return (struct wing){atan2(dot3(direction, x->v), dot3(direction, x->u)), 2 * face + 1 - behind,
-                         2 * face + behind, whole};
+    return (struct wing){atan2(dot3(direction, x->across.v), dot3(direction, x->across.u)),
+                         2 * face + 1 - behind, 2 * face + behind, whole};
 }
 
 static int compare_wings(const void *a, const void *b)
@@ -177,14 +171,13 @@ static int add_pair(struct pairs *pairs, uint32_t a, uint32_t b)
 /* Returns 0, or -1 when out of memory. */
 static int pair_around(struct pairs *pairs, struct wing *wings, int count)
 {
-    const double turn = 2 * 3.14159265358979323846;
     int failed = 0;
     qsort(wings, (size_t)count, sizeof *wings, compare_wings);
     for (int i = 0; i < count && !failed; i++) {
         const struct wing *a = &wings[i], *b = &wings[i + 1 < count ? i + 1 : 0];
         if (a->whole || b->whole)
             continue;
-        const double apart = b->angle - a->angle + (i + 1 < count ? 0 : turn);
+        const double apart = b->angle - a->angle + (i + 1 < count ? 0 : 2 * LAMBERT_PI);
         failed = add_pair(pairs, a->on, b->back) < 0;
         if (count > 1 && apart < CUT_SAME_LINE) /* which comes first? */
             failed |= add_pair(pairs, a->on, a->back) < 0 || add_pair(pairs, b->on, b->back) < 0;

@@ -61,8 +61,7 @@ int back_faces_find(const struct hierarchy *h, uint32_t *behind)
         return -1;
     for (uint32_t i = 0; i < h->face_count; i++) {
         const struct face *f = &h->faces[i];
-        int two_sided =
-            f->light == FACE_LIT && i + 1 < h->face_count && f[1].back && f[1].input == f->input;
+        int two_sided = f->light == FACE_LIT && face_is_pair(h->faces, h->face_count, i);
         behind[i] = two_sided ? i + 1 : BLACK_BACK;
         if (two_sided || !face_shades(f))
             continue;

@@ -41,7 +41,7 @@ static uint32_t face_of(const struct hierarchy *h, uint32_t side)
     uint32_t f = side / 2;
     if (side % 2 == 0)
         return f;
-    return f + 1 < h->face_count && h->faces[f + 1].back ? f + 1 : UINT32_MAX;
+    return face_is_pair(h->faces, h->face_count, f) ? f + 1 : UINT32_MAX;
 }
 
 static int emits(const struct search *s, uint32_t side)

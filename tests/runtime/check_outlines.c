@@ -274,6 +274,19 @@ static void add_box(struct scene *s, int n)
             }
 }
 
+/* Opens the exchange of a scene, which is closed, to a tolerance of 3e-4: the first so many rows,
+ * or all. */
+static void open_exchange(struct exchange *x, const struct scene *s, uint32_t rows)
+{
+    const char *cause;
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    exchange_set_tolerance(refiner, 3e-4);
+    const struct exchange_options options = {.tolerance = 3e-4, .threads = 1, .rows = rows};
+    ck_assert_int_eq(exchange_open(x, s, refiner, &options, &cause), 0);
+    ck_assert_uint_eq(x->report.rows_closed, rows ? rows : s->input_count);
+    refiner_close(refiner);
+}
+
 /* Two balls, one dented, in a box of triangles: every row is 1. An entry may be off by the
  * tolerance times 4 over the root of 308 faces, 7e-5; about a hundred of a row are in half shadow,
  * which by chance makes ten times that, and three times so much is met once in 300 rows. */
@@ -281,22 +294,16 @@ START_TEST(test_closed)
 {
     struct scene s;
     struct exchange x;
-    const char *cause;
     const double c[2][3] = {{0.35, 0.4, 0.4}, {0.7, 0.65, 0.6}};
     made_open(&s);
     made_material(&s, 0.5, 0);
     add_box(&s, 3);
     add_ball(&s, c[0], 0.25, 0, 4, no_gap);
     add_ball(&s, c[1], 0.15, 0.3, 3, no_gap);
-    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    exchange_set_tolerance(refiner, 3e-4);
-    const struct exchange_options options = {.tolerance = 3e-4, .threads = 1};
-    ck_assert_int_eq(exchange_open(&x, &s, refiner, &options, &cause), 0);
-    ck_assert_int_eq((int)x.report.rows_closed, (int)s.input_count);
+    open_exchange(&x, &s, 0);
     printf("two balls in a box: rows off by %.1e at the most\n", x.report.defect_most);
     ck_assert_double_lt(x.report.defect_most, 2e-3);
     exchange_close(&x);
-    refiner_close(refiner);
     made_close(&s);
 }
 END_TEST
@@ -307,22 +314,16 @@ START_TEST(test_many_between)
 {
     struct scene s;
     struct exchange x;
-    const char *cause;
     const double c[3] = {0.5, 0.45, 0.55};
     made_open(&s);
     made_material(&s, 0.5, 0);
     add_box(&s, 2);
     add_ball(&s, c, 0.25, 0, 12, no_gap);
-    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    exchange_set_tolerance(refiner, 3e-4);
-    const struct exchange_options options = {.tolerance = 3e-4, .threads = 1};
-    ck_assert_int_eq(exchange_open(&x, &s, refiner, &options, &cause), 0);
-    ck_assert_int_eq((int)x.report.rows_closed, (int)s.input_count);
+    open_exchange(&x, &s, 0);
     printf("a fine ball in a box: rows off by %.1e at the most\n", x.report.defect_most);
     ck_assert_double_lt(x.report.defect_most, 3e-4);
     ck_assert_int_eq((int)x.report.rays, 0);
     exchange_close(&x);
-    refiner_close(refiner);
     made_close(&s);
 }
 END_TEST
@@ -335,7 +336,6 @@ START_TEST(test_crowd)
     enum { SLIPS = 400, WALLS = 12 };
     struct scene s;
     struct exchange x;
-    const char *cause;
     uint64_t state = 7;
     made_open(&s);
     made_material(&s, 0.5, 0);
@@ -354,17 +354,12 @@ START_TEST(test_crowd)
         front[1].back = 1;
     }
     s.input_count = WALLS + SLIPS;
-    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    exchange_set_tolerance(refiner, 3e-4);
-    const struct exchange_options options = {.tolerance = 3e-4, .threads = 1, .rows = WALLS};
-    ck_assert_int_eq(exchange_open(&x, &s, refiner, &options, &cause), 0);
-    ck_assert_int_eq((int)x.report.rows_closed, WALLS);
+    open_exchange(&x, &s, WALLS);
     printf("slips in a box: rows off by %.1e at the most, %llu rays\n", x.report.defect_most,
            (unsigned long long)x.report.rays);
     ck_assert_double_lt(x.report.defect_most, 1.5e-3);
     ck_assert_int_gt((int)x.report.rays, 0);
     exchange_close(&x);
-    refiner_close(refiner);
     made_close(&s);
 }
 END_TEST
