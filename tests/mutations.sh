@@ -99,7 +99,11 @@ what leaves is still here | runtime/particles/power_balance.c | s/= ended + tall
 leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correction\[REPLICATES\]\[band\])/1/ | runtime/check_power_balance
 hidden at its middle, hidden all over | runtime/engine/sight_outlines.c | s/met &= sight_faces_met/(void)sight_faces_met/ | runtime/check_outlines
 half of what stands before a piece | runtime/engine/exchange_sight.c | s/memcpy(list_of(l, at), b->list, (size_t)b->faces/& \/ 2/ | runtime/check_outlines
-counted by nobody, surely nothing | runtime/engine/mend.c | s/if (m->tally->by_paths)$/if (1)/ | runtime/check_measured_error
+counted by nobody, surely nothing | runtime/engine/mend_clusters.c | s/known \* noise + (1 - known) \* chance/noise/ | runtime/check_measured_error
+the worst of all thresholds | runtime/engine/mend_clusters.c | s/r->risk\[i\] < r->risk\[best\]/r->risk[i] > r->risk[best]/ | runtime/check_mended_error
+thresholds that noise chooses | runtime/engine/mend_clusters.c | s,? 4 \* h / children \* note->replicates,? 0 * h / children, | runtime/check_mended_error
+large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + (sums/0 * noise->large + (sums/ | runtime/check_mended_error
+no link spares a ray | runtime/engine/measured_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error
 a class that none has met is sure | runtime/engine/face_error.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error
 what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->error, element), 0)/fmax(truth_of(s, seen->error, element), 1)/ | solver/check_error_image
 clusters keep what they were | runtime/hierarchy/children_first.c | s/e = h->built; e-- > 0;/e = 0; e-- > 1;/ | runtime/check_measured_error runtime/check_transport

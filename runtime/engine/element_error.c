@@ -29,6 +29,7 @@
 #include <stdlib.h>
 #include "engine/element_error.h"
 #include "engine/leaf_count.h"
+#include "engine/polygon_rows.h"
 #include "kernel/constants.h"
 
 /* The probability that anything is said to be off of a solution that is right: 5 %, as is usual. */
@@ -244,7 +245,7 @@ static void tell_leaves(const struct judging *j, struct element_error *x)
 static int judging_open(struct judging *j)
 {
     size_t n = (size_t)j->h->count + j->faces->polygons;
-    j->extent = calloc((size_t)j->faces->polygons + 1, sizeof *j->extent);
+    j->extent = polygon_areas(j->op->problem, j->h);
     j->rho = calloc((size_t)j->faces->polygons + 1, sizeof *j->rho);
     j->whole = malloc(n * sizeof *j->whole);
     j->say = malloc(n * sizeof *j->say);
@@ -265,8 +266,6 @@ static void judge(struct judging *j, struct element_error *x)
 {
     const struct hierarchy *h = j->h;
     double asked = j->faces->polygons;
-    for (uint32_t f = 0; f < h->face_count; f++)
-        j->extent[h->faces[f].input] += h->elements[h->face_element[f]].area;
     for (uint32_t e = 0; e < h->count; e++)
         asked += h->elements[e].vertices > 0;
     j->squares = 2 * log(2 * (2 * asked * j->bands) / ELEMENT_ERROR_CHANCE);

@@ -552,15 +552,31 @@ static struct RadMeasure expected_noise(const struct counted *c)
                                (mean + off) / c->reflected};
 }
 
-int face_noise(const struct problem *p, const struct hierarchy *h, const double *irradiance,
-               const struct tally *tally, double *noise)
+/* What large polygons have of the mean of that. */
+static double noise_of_large(const struct counted *c, const double *areas, double all)
+{
+    double mean = 0;
+    for (uint32_t row = 0; row < c->rows.count; row++)
+        for (uint32_t k = 0; k < c->bands; k++)
+            if (areas[polygon_of_row(&c->rows, row)] > FACE_ERROR_LARGE * all)
+                mean += sqrt(2 / LAMBERT_PI) * c->deviation[(size_t)row * c->bands + k];
+    polygon_rows_sum(&c->rows, &mean, 1);
+    return mean / c->reflected;
+}
+
+int face_noise_find(const struct problem *p, const struct hierarchy *h, const double *irradiance,
+                    const struct tally *tally, struct face_noise *noise)
 {
     struct counted *c = counted_open(p, h, irradiance, tally);
-    if (!c)
-        return -1;
-    *noise = c->reflected > 0 ? expected_noise(c).value : 0;
+    double *areas = polygon_areas(p, h);
+    const int failed = ranks_any(tally->quarters ? p->options.ranks : NULL, !c || !areas);
+    *noise = (struct face_noise){0, 0};
+    if (!failed && c->reflected > 0)
+        *noise = (struct face_noise){expected_noise(c).value,
+                                     noise_of_large(c, areas, h->elements[0].area)};
     counted_close(c);
-    return 0;
+    free(areas);
+    return failed ? -1 : 0;
 }
 
 static int open_lists(struct face_error *f)
@@ -577,7 +593,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     uint32_t polygons = p->scene->input_count;
     *f = (struct face_error){.polygons = polygons, .bands = p->bands, .worst = polygons};
     struct counted *c = counted_open(p, h, irradiance, tally);
-    double *areas = calloc((size_t)polygons + 1, sizeof *areas);
+    double *areas = polygon_areas(p, h);
     const int failed = !c || !areas || open_lists(f) < 0;
     if (ranks_any(tally->quarters ? p->options.ranks : NULL, failed)) {
         counted_close(c);
@@ -585,8 +601,6 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         face_error_close(f);
         return -1;
     }
-    for (uint32_t i = 0; i < h->face_count; i++)
-        areas[h->faces[i].input] += h->elements[h->face_element[i]].area;
     f->reflected = c->reflected;
     find_scales(c);
     find_errors(c);

@@ -26,9 +26,13 @@ struct face_error {
 int face_error_open(struct face_error *f, const struct problem *p, const struct hierarchy *h,
                     const double *irradiance, const struct tally *tally);
 /* The L1 error of polygons that the noise of the tally alone makes, as a share of the reflected
- * light. Returns 0, or -1 when out of memory. */
-int face_noise(const struct problem *p, const struct hierarchy *h, const double *irradiance,
-               const struct tally *tally, double *noise);
+ * light; and what polygons above FACE_ERROR_LARGE of the area have of it. Returns 0, or -1 when out
+ * of memory. */
+struct face_noise {
+    double all, large;
+};
+int face_noise_find(const struct problem *p, const struct hierarchy *h, const double *irradiance,
+                    const struct tally *tally, struct face_noise *noise);
 
 void face_error_close(struct face_error *f);
 

@@ -12,6 +12,7 @@
 #include "engine/dim_faces.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/mended_error.h"
 #include "engine/own_quarters.h"
 #include "engine/path_mending.h"
 #include "engine/ray_split.h"
@@ -226,12 +227,12 @@ static int mend_polygons(struct solve *s, const struct tracer *t, const struct t
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 
-/* Dim polygons, whose rays are added to *spent. Returns 0, or -1 when out of memory or cancelled.
- */
+/* Dim polygons, by as many rays as mending took or would have without links (unaided); they are
+ * added to *spent. Returns 0, or -1 when out of memory or cancelled. */
 static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
-                    struct measured_error *alone, uint64_t *spent)
+                    double unaided, struct measured_error *alone, uint64_t *spent)
 {
-    double mending = (double)tally->rays, paths = DIM_RAYS * mending,
+    double mending = (double)tally->rays, paths = DIM_RAYS * fmax(mending, unaided),
            both = fmax(DIM_FEW - (double)s->report.counts.rays - mending, 0),
            budget = fmax(paths, both);
     struct watched watched = {.solve = s,
@@ -264,7 +265,8 @@ static int follow_counted(struct solve *s, struct tally *tally)
 
 /* By what particles counted, and then by paths, if there are any. */
 static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
-                const struct tally *paths, struct measured_error *alone, uint64_t *spent)
+                const struct tally *paths, double unaided, struct measured_error *alone,
+                uint64_t *spent)
 {
     tally_add(tally, t->ranks);
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
@@ -276,18 +278,31 @@ static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
         if (mend_by(s, tally, m->irradiance) == 0
             && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_counted(s, tally) == 0
-            && mend_dim(s, t, paths ? paths : tally, alone, spent) == 0)
+            && mend_dim(s, t, paths ? paths : tally, unaided, alone, spent) == 0)
             return 0;
     }
     solve_forget_mended(s);
     return -1;
 }
 
-/* The noise that particles have on polygons. Returns 0, or -1 when out of memory. */
-static int find_noise(struct solve *s, struct tally *tally, double *noise)
+/* How many times the particles that have come are wanted for polygons: for their noise there
+ * (*alone), or, where that is fewer, for what mending leaves. Returns 0, or -1 when out of memory.
+ */
+static int times_wanted(struct solve *s, struct tally *tally, const struct mending_goal *goal,
+                        double *times, double *alone)
 {
+    struct face_noise noise;
+    double left;
     tally_add_faces(tally, s->problem.options.ranks);
-    return face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, noise);
+    if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0)
+        return -1;
+    *times = *alone = noise.all * noise.all / (goal->noise * goal->noise);
+    if (!(*times > 1 && goal->left > 0))
+        return 0;
+    if (mended_error_find(s, tally, &noise, &left) < 0)
+        return -1;
+    *times = fmin(*times, mended_error_wanted(left, noise.all, goal->left));
+    return 0;
 }
 
 int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, const char **cause)
@@ -328,25 +343,27 @@ static int trace_for_places(struct solve *s, const struct tracer *t, struct tall
     return 0;
 }
 
-/* The same until their noise in the L1 error of polygons is small enough. */
+/* The same until the L1 error of polygons is small enough. *unaided: rays that this would take
+ * without links, about. */
 static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally *tally,
-                           const struct mending_goal *goal)
+                           const struct mending_goal *goal, double *unaided)
 {
-    double left = t->lights.power > 0 ? INFINITY : 0;
-    if (tally->particles > 0 && left > 0 && find_noise(s, tally, &left) < 0)
+    double times = t->lights.power > 0 ? INFINITY : 0, alone = 1;
+    if (tally->particles > 0 && times > 0 && times_wanted(s, tally, goal, &times, &alone) < 0)
         return -1;
-    while (left > goal->noise && tally->rays < goal->most) {
-        /* noise falls with the root of the number, which doubles at the most */
-        double ratio = left / goal->noise, all = (double)tally->rays * ratio * ratio,
+    while (times > 1 && tally->rays < goal->most) {
+        /* they double at the most before that is asked again */
+        double all = (double)tally->rays * times,
                next = fmin(fmin(1.02 * all, 2.0 * (double)tally->rays), (double)goal->most);
         uint64_t before = tally->rays;
         if (trace_rays(s, t, tally, next > 1 ? (uint64_t)next : 1, fmin(all, (double)goal->most))
                 < 0
-            || find_noise(s, tally, &left) < 0)
+            || times_wanted(s, tally, goal, &times, &alone) < 0)
             return -1;
         if (tally->rays == before)
             break;
     }
+    *unaided = fmin((double)tally->rays * alone, (double)goal->most);
     return 0;
 }
 
@@ -421,6 +438,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     struct path_tally paths = {.tally = {0}};
     struct mending_goal left = *goal;
     uint64_t spent = 0;
+    double unaided = 0;
     s->told = 0;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
@@ -432,7 +450,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     failed = failed || detail_leaves(s, landings(&left)) < 0
              || tally_open(&tally, &t, MEND_STREAM, 1) < 0 || look(s, &t, &tally, &paths, goal) < 0
              || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
-             || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
+             || (!s->by_paths && trace_for_faces(s, &t, &tally, goal, &unaided) < 0)
              || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0;
     s->report.particles = 0;
     if (!failed) { /* while faces are dealt out as they were */
@@ -440,7 +458,8 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
         s->report.particles = tally_fingerprint(&tally, t.ranks)
                               + (s->by_paths ? tally_fingerprint(&paths.tally, t.ranks) : 0);
     }
-    failed = failed || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
+    failed = failed
+             || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, unaided, alone, &spent) < 0
              || detail_merge(s, elements) < 0 || (!goal->own && own_quarters_share(s) < 0);
     if (failed)
         s->report.particles = 0;

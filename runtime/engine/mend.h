@@ -11,4 +11,9 @@
  * leaves. Returns 0, or -1 when out of memory. */
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance);
 
+/* The same of clusters and faces as wholes: light, by the links, stays; irradiance and doubt
+ * (mend_clusters.h): [built * bands], those of this rank's. */
+int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
+               double *irradiance, double *doubt);
+
 #endif

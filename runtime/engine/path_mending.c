@@ -21,9 +21,10 @@ enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
 
 static double noise_of(const struct solve *s, const struct tally *tally)
 {
-    double noise;
-    return face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0 ? -1
-                                                                                          : noise;
+    struct face_noise noise;
+    const int failed =
+        face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0;
+    return failed ? -1 : noise.all;
 }
 
 /* Do both see the same light? */

@@ -130,3 +130,11 @@ int polygon_rows_add(const struct polygon_rows *rows, const struct problem *p,
     free(several);
     return 0;
 }
+
+double *polygon_areas(const struct problem *p, const struct hierarchy *h)
+{
+    double *areas = calloc((size_t)p->scene->input_count + 1, sizeof *areas);
+    for (uint32_t i = 0; i < h->face_count && areas; i++)
+        areas[h->faces[i].input] += h->elements[h->face_element[i]].area;
+    return areas;
+}

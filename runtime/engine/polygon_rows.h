@@ -42,6 +42,9 @@ static inline uint32_t polygon_of_row(const struct polygon_rows *rows, uint32_t 
 int polygon_rows_add(const struct polygon_rows *rows, const struct problem *p,
                      const struct hierarchy *h, const struct tally *tally, double *value);
 
+/* [polygon]: the area of all its sides (m2), the caller's. NULL when out of memory. */
+double *polygon_areas(const struct problem *p, const struct hierarchy *h);
+
 /* Sums over the rows of all ranks. */
 static inline void polygon_rows_sum(const struct polygon_rows *rows, double *sum, size_t count)
 {

@@ -5,64 +5,19 @@
  * in how many faces it sits, how many there are and how few particles.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
-#include "runtime/make_known.h"
-#include "runtime/make_solve.h"
+#include "runtime/spoilt.h"
 #include "engine/detail.h"
 #include "engine/element_light.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/ray_split.h"
-#include "engine/solve_tracer.h"
 #include "kernel/constants.h"
 #include "kernel/leaf_at.h"
-#include "particles/power_balance.h"
 #include "suite.h"
 
 struct cover {
     int trials, l1_below, l1_above, power_missed;
 };
-
-static struct tracer tracer_over(const struct solve *s, int threads)
-{
-    struct tracer t = solve_tracer(s);
-    t.threads = threads;
-    ck_assert_int_eq(tracer_open(&t), 0);
-    return t;
-}
-
-/* particles: of all replicates together. */
-static void traced(struct tally *y, const struct tracer *t, uint64_t stream, int particles)
-{
-    ck_assert_int_eq(tally_open(y, t, stream, 1), 0);
-    ck_assert_int_eq(tally_trace(y, t, (uint64_t)particles / REPLICATES, NULL), 0);
-    power_balance(y, t);
-}
-
-struct errors {
-    double l1, power;
-};
-
-/* True errors of faces, as shares of the reflected light. */
-static struct errors true_errors(const struct solve *s, const double *truth, const double *solved)
-{
-    uint32_t bands = s->problem.bands, values = s->problem.scene->input_count * bands;
-    double *off = calloc(values, sizeof *off), all = 0;
-    struct errors e = {0, 0};
-    for (uint32_t f = 0; f < s->hierarchy.face_count; f++)
-        for (uint32_t k = 0; k < bands; k++) {
-            uint32_t at = s->hierarchy.face_element[f];
-            double a = s->problem.reflectance[f * bands + k] * s->hierarchy.elements[at].area;
-            off[s->hierarchy.faces[f].input * bands + k] +=
-                a * (solved[at * bands + k] - truth[f * bands + k]);
-            all += a * truth[f * bands + k];
-        }
-    for (uint32_t i = 0; i < values; i++) {
-        e.l1 += fabs(off[i]) / all;
-        e.power += off[i] / all;
-    }
-    free(off);
-    return e;
-}
 
 static void judge(const struct solve *s, const double *truth, const double *solved,
                   const struct tally *y, struct cover *c)
@@ -103,53 +58,6 @@ static void check_misses(const char *name, int misses, int trials)
     ck_assert_msg(misses <= most * trials, "%s: %d of %d missed", name, misses, trials);
 }
 
-/* Truth times 1 + d, the sum of |error| about `target` of the reflected light. d: all by chance,
- * one face alone, all alike, or a third of them. */
-static void spoil(const struct solve *s, const double *truth, double *solved, double target,
-                  struct chance *c)
-{
-    uint32_t bands = s->problem.bands, faces = s->hierarchy.face_count;
-    int pattern = (int)(4 * chance_even(c));
-    uint32_t one = (uint32_t)(faces * chance_even(c));
-    double sign = chance_even(c) < 0.5 ? -1 : 1, l1 = 0, all = 0;
-    double *d = calloc(faces, sizeof *d);
-    for (uint32_t f = 0; f < faces; f++) {
-        double normal = chance_normal(c), third = chance_even(c) < 1 / 3.0 ? normal : 0;
-        d[f] = pattern == 0   ? normal
-               : pattern == 1 ? (f == one) * sign
-               : pattern == 2 ? sign
-                              : third;
-        for (uint32_t k = 0; k < bands; k++) {
-            double reflected = s->problem.reflectance[f * bands + k] * truth[f * bands + k]
-                               * s->hierarchy.elements[s->hierarchy.face_element[f]].area;
-            all += reflected;
-            l1 += reflected * fabs(d[f]);
-        }
-    }
-    for (uint32_t f = 0; f < faces; f++)
-        for (uint32_t k = 0; k < bands; k++)
-            solved[s->hierarchy.face_element[f] * bands + k] =
-                truth[f * bands + k] * fmax(0, 1 + (l1 > 0 ? d[f] * target * all / l1 : 0));
-    free(d);
-}
-
-static void open_known(struct solve *s, struct scene *scene)
-{
-    struct solve_options o = quick(1);
-    const char *cause;
-    ck_assert_int_eq(solve_open(s, scene, &o, &cause), 0);
-}
-
-static void close_known(struct solve *s, struct scene *scene, struct tracer *t, double *truth,
-                        double *solved)
-{
-    free(solved);
-    free(truth);
-    tracer_close(t);
-    solve_close(s);
-    made_close(scene);
-}
-
 START_TEST(test_coverage)
 {
     static const double beside[] = {0, 0.2, 1, 4, 20}; /* true error over noise */
@@ -169,12 +77,12 @@ START_TEST(test_coverage)
         for (int n = many; n < 2; n++) /* a particle per face tells nothing */
             for (int r = 0; r < streams; r++) {
                 struct tally y;
-                double noise;
+                struct face_noise noise;
                 traced(&y, &t, (uint64_t)(streams * i + r + 1), particles[n]);
                 spoil(&s, truth, solved, 0, &chance);
-                face_noise(&s.problem, &s.hierarchy, solved, &y, &noise);
+                face_noise_find(&s.problem, &s.hierarchy, solved, &y, &noise);
                 for (int q = 0; q < 5; q++) {
-                    double target = noise * beside[q] * exp(chance_between(&chance, -0.5, 0.5));
+                    double target = noise.all * beside[q] * exp(chance_between(&chance, -0.5, 0.5));
                     spoil(&s, truth, solved, fmin(1, target), &chance);
                     judge(&s, truth, solved, &y, &cover[many][n][q]);
                 }
@@ -204,21 +112,6 @@ START_TEST(test_coverage)
     check_misses("power", all.power_missed / 5, tallies);
 }
 END_TEST
-
-/* A room of n x n tiles a wall, all with the same H. Returns H by face and band. */
-static double *tiled_open(struct scene *scene, struct solve *s, int n, struct chance *chance)
-{
-    double b[3];
-    made_open(scene);
-    known_materials(scene, chance, b);
-    known_room(scene, chance, n, 3, 2, 1.5);
-    open_known(s, scene);
-    size_t values = (size_t)scene->input_count * scene->bands;
-    double *truth = calloc(values, sizeof *truth);
-    for (size_t i = 0; i < values; i++)
-        truth[i] = b[i % scene->bands];
-    return truth;
-}
 
 /* Of tens of thousands of faces chance leaves nothing open; what is not known of the noise itself
  * does. Errors well below it are covered; the lower end, which takes errors for more evenly spread
@@ -315,13 +208,14 @@ START_TEST(test_mended)
         solve_known(&s, &scene, oracles[i % 5]);
         struct tracer t = tracer_over(&s, 1);
         struct tally of, against;
-        double noise;
+        struct face_noise noise;
         traced(&of, &t, MEND_STREAM, thorough() ? 300000 : 30000);
         traced(&against, &t, (uint64_t)i + 1, 15000);
         judge(&s, truth, s.state.irradiance, &against, &links);
         before += true_errors(&s, truth, s.state.irradiance).l1;
-        ck_assert_int_eq(face_noise(&s.problem, &s.hierarchy, s.state.irradiance, &of, &noise), 0);
-        allowed += noise;
+        ck_assert_int_eq(face_noise_find(&s.problem, &s.hierarchy, s.state.irradiance, &of, &noise),
+                         0);
+        allowed += noise.all;
         ck_assert_int_eq(mend_irradiance(&s.operator, & of, s.state.irradiance), 0);
         after += true_errors(&s, truth, s.state.irradiance).l1;
         judge(&s, truth, s.state.irradiance, &against, &left);
@@ -350,18 +244,19 @@ START_TEST(test_mends)
     struct scene scene;
     struct solve s;
     struct tally of;
-    double noise, *truth = known_open(&scene, KNOWN_FURNISHED, &chance);
+    struct face_noise noise;
+    double *truth = known_open(&scene, KNOWN_FURNISHED, &chance);
     open_known(&s, &scene);
     struct tracer t = tracer_over(&s, 1);
     traced(&of, &t, MEND_STREAM, 30000);
     double *solved = calloc((size_t)s.hierarchy.count * scene.bands, sizeof *solved);
     spoil(&s, truth, solved, 0, &chance);
-    ck_assert_int_eq(face_noise(&s.problem, &s.hierarchy, solved, &of, &noise), 0);
+    ck_assert_int_eq(face_noise_find(&s.problem, &s.hierarchy, solved, &of, &noise), 0);
     ck_assert_int_eq(mend_irradiance(&s.operator, & of, solved), 0);
-    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 0.7 * noise);
-    spoil(&s, truth, solved, 20 * noise, &chance);
+    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 0.7 * noise.all);
+    spoil(&s, truth, solved, 20 * noise.all, &chance);
     ck_assert_int_eq(mend_irradiance(&s.operator, & of, solved), 0);
-    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 20.0 / 3 * noise);
+    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 20.0 / 3 * noise.all);
     free(solved);
     free(truth);
     tally_close(&of);

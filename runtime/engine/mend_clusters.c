@@ -1,0 +1,230 @@
+/* mend_clusters.c - see mend_clusters.h.
+ *
+ * How a cluster's light is shared among its children is told by links (q~ of each) and by the
+ * particles that landed there (q^). Links are off by much in few places, where a shadow's edge or
+ * an end of a coarse link lies, and by next to nothing elsewhere. So it would be wrong to believe
+ * one share of every difference m = q^ - q~. Believed is k = 1 - h of it,
+ *     h = min(1, t s^2 / m^2),   s^2 the square that noise alone would give m:
+ * nothing below a threshold t, all far above it. Which t is best for the clusters that about as
+ * many particles met is told by these themselves: of d children but one, v for s^2, the squared
+ * error that this h leaves is in the mean
+ *     h^2 m^2 + (1 - 2 h) v, and 4 h v / d more where h < 1,
+ * whatever the errors of links are. Taken is the t of the least sum, and that sum is what mending
+ * leaves: each cluster's part of it, as its s^2 is of the class's, is the variance of what its
+ * children get, besides that of what it has itself.
+ *
+ * Noise is told by the replicates, which see correlations that chance does not, and by chance,
+ * times how far the replicates of the class differ from chance: the mean of both, as 15 degrees of
+ * freedom make the first alone uncertain, and what is uncertain there would be believed. Where few
+ * particles land, or should by links, replicates say little, and where none did, nothing: then
+ * chance alone. In sums over a class it is the replicates' own, v, which is right in the mean.
+ *
+ * The scene has no class: its k is believed as far as it is no accident.
+ *
+ * [Stein 1981, the unbiased estimate of that error; Donoho and Johnstone 1995, a threshold by it;
+ * Breiman 1995 and Gao 1998, this h, the garrote]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include "engine/mend_clusters.h"
+#include "kernel/constants.h"
+#include "util/thread_pool.h"
+
+enum { RUN = 256 /* clusters that a thread takes at once */ };
+
+/* Of m^2 over s^2. The first is James and Stein's rule for each alone; beyond the last, four
+ * standard deviations, whatever is seen is believed. */
+enum { THRESHOLDS = 7 };
+static const double threshold[THRESHOLDS] = {1, 1.5, 2, 3, 4, 8, 16};
+
+enum { NOTHING = -1 };
+
+/* Of the children of a cluster, as shares of what was counted there: m^2; s^2 by replicates, as
+ * they are and, where few land, as chance has it; and by chance. */
+struct note {
+    int class; /* NOTHING: none landed there */
+    double seen, replicates, noise, chance;
+};
+
+/* Sums over a class: of s^2; of the squared error that each threshold leaves, and of its square. */
+struct class
+{
+    double noise, chance, risk[THRESHOLDS], square[THRESHOLDS];
+};
+enum { SUMS = 2 + 2 * THRESHOLDS };
+_Static_assert(sizeof(struct class) == SUMS * sizeof(double), "sums are told as they stand");
+
+struct clusters {
+    const struct mend_sums *sums;
+    const uint32_t *parent;
+    struct note *note; /* [cluster * bands + band] */
+    struct class class[MEND_CLASSES];
+    double best[MEND_CLASSES]; /* threshold */
+    double left[MEND_CLASSES]; /* what that leaves, over s^2 */
+};
+
+/* s^2 of child j of e by the replicates, off what it has more than given (W2). */
+static double noise_of(const struct mend_sums *m, uint32_t e, uint32_t j, uint32_t k, double given,
+                       double off)
+{
+    const size_t values = (size_t)m->places.built * m->bands;
+    double seen = 0;
+    for (size_t r = 0; r < REPLICATES; r++) {
+        const double *of = &m->replicate[r * values];
+        const double d = of[mend_at(m, j, k)] - given * of[mend_at(m, e, k)] - off;
+        seen += d * d / (REPLICATES * (REPLICATES - 1.0));
+    }
+    return seen;
+}
+
+static struct note note_of(const struct mend_sums *m, uint32_t e, uint32_t k)
+{
+    const struct element *at = &m->op->hierarchy->elements[e];
+    const double whole = m->received[mend_at(m, e, k)],
+                 few = FACE_ERROR_FEW * tally_power_of_one(m->tally);
+    double given[MEND_CHILDREN];
+    struct note note = {NOTHING, 0, 0, 0, 0};
+    if (!(whole > 0))
+        return note;
+    note.class = mend_class(m, e, k);
+    mend_shares(m, e, k, given);
+    for (uint32_t c = 0; c < at->children; c++) {
+        const uint32_t j = at->child + c;
+        const double here = m->received[mend_at(m, j, k)], off = here - given[c] * whole,
+                     likely = fmax(here, given[c] * whole),
+                     noise = noise_of(m, e, j, k, given[c], off) / (whole * whole);
+        note.seen += off * off / (whole * whole);
+        note.replicates += noise;
+        if (m->tally->by_paths) {
+            note.noise += noise;
+            continue;
+        }
+        const double chance = mend_chance(m, k, given[c], likely, whole) / (whole * whole),
+                     known = likely / (likely + few);
+        note.noise += known * noise + (1 - known) * chance;
+        note.chance += chance;
+    }
+    return note;
+}
+
+static void note_some(const void *clusters, size_t from, size_t to)
+{
+    const struct clusters *x = clusters;
+    const uint32_t bands = x->sums->bands;
+    for (size_t i = from; i < to; i++)
+        for (uint32_t k = 0; k < bands; k++)
+            x->note[i * bands + k] = note_of(x->sums, x->parent[i], k);
+}
+
+/* s^2 */
+static double noise_in(const struct clusters *x, const struct note *note)
+{
+    const struct class *c = &x->class[note->class];
+    return c->chance > 0 ? 0.5 * (note->noise + note->chance * c->noise / c->chance) : note->noise;
+}
+
+/* Add what thresholds would leave; children: one less than there are. */
+static void add_risk(struct class *class, const struct note *note, double noise, double children)
+{
+    class->noise += noise;
+    for (int i = 0; i < THRESHOLDS && noise > 0; i++) {
+        const double h = fmin(1, threshold[i] * noise / note->seen),
+                     risk = h * h * note->seen + (1 - 2 * h) * note->replicates
+                            + (h < 1 ? 4 * h / children * note->replicates : 0);
+        class->risk[i] += risk;
+        class->square[i] += risk * risk;
+    }
+}
+
+/* In the order of clusters, whoever took the notes. */
+static void choose(struct clusters *x, uint32_t count)
+{
+    const struct mend_sums *m = x->sums;
+    const size_t notes = (size_t)count * m->bands;
+    for (size_t i = 0; i < notes; i++)
+        if (x->note[i].class != NOTHING && mend_is_noted(m, x->parent[i / m->bands])) {
+            x->class[x->note[i].class].noise += x->note[i].noise;
+            x->class[x->note[i].class].chance += x->note[i].chance;
+        }
+    if (m->op->shares.common)
+        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, &x->class[0].noise, MEND_CLASSES * SUMS);
+    struct class risk[MEND_CLASSES] = {{0, 0, {0}, {0}}};
+    for (size_t i = 0; i < notes; i++) {
+        const struct note *note = &x->note[i];
+        const uint32_t e = x->parent[i / m->bands];
+        if (note->class != NOTHING && mend_is_noted(m, e))
+            add_risk(&risk[note->class], note, noise_in(x, note),
+                     m->op->hierarchy->elements[e].children - 1.0);
+    }
+    if (m->op->shares.common)
+        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, &risk[0].noise, MEND_CLASSES * SUMS);
+    for (int c = 0; c < MEND_CLASSES; c++) {
+        const struct class *r = &risk[c];
+        int best = 0;
+        for (int i = 1; i < THRESHOLDS; i++)
+            if (r->risk[i] < r->risk[best])
+                best = i;
+        x->best[c] = threshold[best];
+        x->left[c] =
+            r->noise > 0 ? fmin(1, (fmax(r->risk[best], 0) + sqrt(r->square[best])) / r->noise) : 1;
+    }
+}
+
+/* Share out what e receives, mended by now, among its children. */
+static void share_out(const struct clusters *x, uint32_t e, uint32_t k, const struct note *note,
+                      double *irradiance, double *doubt)
+{
+    const struct mend_sums *m = x->sums;
+    const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
+    const double whole = irradiance[(size_t)e * m->bands + k] * at->area,
+                 counted = m->received[mend_at(m, e, k)];
+    double given[MEND_CHILDREN], belief = 0;
+    mend_shares(m, e, k, given);
+    if (note->class != NOTHING && note->seen > 0)
+        belief = fmax(0, 1 - x->best[note->class] * noise_in(x, note) / note->seen);
+    for (uint32_t c = 0; c < at->children; c++) {
+        const uint32_t j = at->child + c;
+        double share = given[c];
+        if (belief > 0)
+            share += belief * (m->received[mend_at(m, j, k)] / counted - given[c]);
+        irradiance[(size_t)j * m->bands + k] = share * whole / elements[j].area;
+        if (doubt)
+            doubt[(size_t)j * m->bands + k] =
+                doubt[(size_t)e * m->bands + k]
+                + (note->class == NOTHING || !(share > 0)
+                       ? 1
+                       : x->left[note->class] * noise_in(x, note) / (at->children * share * share));
+    }
+}
+
+static void mend_scene(const struct mend_sums *m, uint32_t k, double *irradiance)
+{
+    const double linked = m->linked[mend_at(m, 0, k)], off = m->received[mend_at(m, 0, k)] - linked,
+                 noise = noise_of(m, 0, 0, k, 0, m->received[mend_at(m, 0, k)]),
+                 least = 1 + MEND_EVIDENCE * sqrt(2);
+    const double belief = off * off > least * noise ? 1 - noise / (off * off) : 0;
+    irradiance[k] = (linked + belief * off) / m->op->hierarchy->elements[0].area;
+}
+
+int mend_clusters(const struct mend_sums *m, const uint32_t *parent, uint32_t count,
+                  double *irradiance, double *doubt)
+{
+    const int threads = m->op->problem->options.threads;
+    struct clusters x = {.sums = m, .parent = parent};
+    x.note = malloc(((size_t)count * m->bands + 1) * sizeof *x.note);
+    if (ranks_any(m->op->shares.ranks, !x.note)) {
+        free(x.note);
+        return -1;
+    }
+    thread_pool_run(threads, count, RUN, note_some, &x);
+    choose(&x, count);
+    for (uint32_t k = 0; k < m->bands && doubt; k++)
+        doubt[k] = 0;
+    for (uint32_t k = 0; k < m->bands && mend_is_here(&m->places, 0); k++)
+        mend_scene(m, k, irradiance);
+    for (size_t i = 0; i < count; i++) /* clusters get their light from those before them */
+        for (uint32_t k = 0; k < m->bands; k++)
+            share_out(&x, parent[i], k, &x.note[i * m->bands + k], irradiance, doubt);
+    free(x.note);
+    return 0;
+}

@@ -1,0 +1,162 @@
+/* Are clusters mended where links are off, and left alone where they are not; and is what is left
+ * of their error what mending says? Truths are closed forms, links are the truth spoilt by chance
+ * (spoilt.h).
+ * SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include <string.h>
+#include "runtime/spoilt.h"
+#include "engine/mend.h"
+#include "engine/measured_error.h"
+#include "engine/mended_error.h"
+
+/* Means over some runs, as shares of the reflected light: of L1 errors of polygons before and after
+ * mending, of what is said of the last, and of the noise of particles alone. */
+struct means {
+    double before, after, said, noise;
+};
+
+/* Walls of n x n tiles, links off by `target` times the noise, particles as many as of a tile. */
+static struct means mended(int n, int particles, double target, uint64_t seed)
+{
+    enum { RUNS = 8 };
+    struct means m = {0, 0, 0, 0};
+    struct chance chance = {hash64(seed)};
+    for (uint64_t i = 0; i < RUNS; i++) {
+        struct scene scene;
+        struct solve s;
+        struct tally y;
+        struct face_noise noise;
+        double said, *truth = tiled_open(&scene, &s, n, &chance);
+        const size_t values = (size_t)s.hierarchy.count * scene.bands;
+        double *links = calloc(values, sizeof *links), *after = calloc(values, sizeof *after),
+               *doubt = calloc(values, sizeof *doubt);
+        struct tracer t = tracer_over(&s, 1);
+        traced(&y, &t, i + 1, particles * (int)scene.input_count);
+        spoil(&s, truth, links, 0, &chance);
+        ck_assert_int_eq(face_noise_find(&s.problem, &s.hierarchy, links, &y, &noise), 0);
+        spoil(&s, truth, links, target * noise.all, &chance);
+        memcpy(s.state.irradiance, links, values * sizeof *links);
+        ck_assert_int_eq(mended_error_find(&s, &y, &noise, &said), 0);
+        ck_assert_mem_eq(s.state.irradiance, links, values * sizeof *links);
+        ck_assert_int_eq(mend_faces(&s.operator, & y, links, after, doubt), 0);
+        m.before += true_errors(&s, truth, links).l1 / RUNS;
+        m.after += true_errors(&s, truth, after).l1 / RUNS;
+        m.said += said / RUNS;
+        m.noise += noise.all / RUNS;
+        tally_close(&y);
+        free(after);
+        free(doubt);
+        close_known(&s, &scene, &t, truth, links);
+    }
+    if (thorough())
+        printf("%d tiles, %d particles each, links off by %4.2f noises: %.4f -> %.4f, said %.4f, "
+               "noise %.4f\n",
+               6 * n * n, particles, target, m.before, m.after, m.said, m.noise);
+    return m;
+}
+
+/* Links that are right stay so, but for a tenth of the noise; what is far off is as good as what
+ * particles say; and in between mending is never much worse than the better of both. */
+START_TEST(test_mends)
+{
+    static const int particles[] = {4, 16, 64};
+    for (int i = 0; i < 3; i++) {
+        const struct means right = mended(12, particles[i], 0, 11),
+                           near = mended(12, particles[i], 0.5, 12),
+                           far = mended(12, particles[i], 6, 13);
+        ck_assert_double_lt(right.after, 0.12 * right.noise);
+        ck_assert_double_lt(near.after, near.before + 0.15 * near.noise);
+        ck_assert_double_lt(far.after, 1.1 * far.noise);
+    }
+}
+END_TEST
+
+/* What is said of the rest is not below it, but for what eight runs leave open, and not far above:
+ * by half where a third of the faces have all of it, and by what cannot be told from nothing, the
+ * less the more faces there are. */
+START_TEST(test_says)
+{
+    static const int particles[] = {4, 16, 64}, tiles[] = {14, 40};
+    static const double targets[] = {0, 0.25, 0.5, 1, 2, 6}, unseen[] = {0.4, 0.25};
+    for (int n = 0; n < 2; n++)
+        for (int i = 0; i < (n ? 1 : 3); i++)
+            for (int j = 0; j < 6; j += 1 + n) {
+                const struct means m =
+                    mended(tiles[n], particles[i], targets[j], 21 + (uint64_t)(8 * i + j));
+                ck_assert_double_ge(m.said, 0.9 * m.after);
+                ck_assert_double_le(m.said, 1.5 * m.after + unseen[n] * m.noise);
+                ck_assert_double_le(m.said, 1.0001 * m.noise);
+            }
+}
+END_TEST
+
+/* Of large polygons it is the noise of particles, however good links are. */
+START_TEST(test_large)
+{
+    const struct means m = mended(1, 10000, 0, 5);
+    ck_assert_double_eq_tol(m.said, m.noise, 1e-12);
+}
+END_TEST
+
+/* How many particles more: with none of the error from links as many as noise tells, with nothing
+ * but that no number is enough, and in between they are what is missing. */
+START_TEST(test_wanted)
+{
+    ck_assert_double_eq_tol(mended_error_wanted(0.02, 0.02, 0.01), 4, 1e-12);
+    ck_assert_double_eq(mended_error_wanted(0.01, 0.04, 0.01), 0);
+    for (double error = 0.011; error < 0.04; error += 0.001) {
+        const double links = 1 / (error * error) - 1 / (0.04 * 0.04),
+                     times = mended_error_wanted(error, 0.04, 0.01);
+        ck_assert_double_gt(times, 1);
+        ck_assert_double_eq_tol(1 / sqrt(links + times / (0.04 * 0.04)), 0.01, 1e-9);
+    }
+}
+END_TEST
+
+/* So many rays does mending cast, and so far off is what is shown. */
+static uint64_t rays_of(double left, double *error)
+{
+    struct chance chance = {hash64(31)};
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    double *truth = tiled_open(&scene, &s, 14, &chance);
+    struct tracer t = tracer_over(&s, 1);
+    for (uint32_t f = 0; f < scene.face_count; f++)
+        for (uint32_t k = 0; k < scene.bands; k++)
+            s.state.irradiance[s.hierarchy.face_element[f] * scene.bands + k] =
+                truth[f * scene.bands + k];
+    const struct mending_goal goal = {.noise = 0.05, .left = left, .most = 1 << 24};
+    ck_assert_int_eq(measure_and_mend(&s, &goal, &alone, &cause), 0);
+    *error = true_errors(&s, truth, s.mended.irradiance).l1;
+    const uint64_t rays = alone.rays;
+    measured_error_free(&alone);
+    close_known(&s, &scene, &t, truth, NULL);
+    return rays;
+}
+
+/* Where links are right half of the particles is enough, and all is as near as was wanted. */
+START_TEST(test_spares)
+{
+    double error, alone;
+    const uint64_t unaided = rays_of(0, &alone), rays = rays_of(0.05, &error);
+    ck_assert_uint_lt(2 * rays, unaided);
+    ck_assert_double_lt(error, 0.05);
+    ck_assert_double_lt(alone, 0.05);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("mended error");
+    TCase *tests = tcase_create("");
+    tcase_set_timeout(tests, 120);
+    tcase_add_test(tests, test_mends);
+    tcase_add_test(tests, test_says);
+    tcase_add_test(tests, test_large);
+    tcase_add_test(tests, test_wanted);
+    tcase_add_test(tests, test_spares);
+    suite_add_tcase(suite, tests);
+    return suite_failures(suite) > 0;
+}
