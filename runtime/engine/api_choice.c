@@ -1,8 +1,8 @@
 /* api_choice.c - as many links as pay: radSolveScene.
  *
  * Particles know all light without a link: places to an error t by s^2 / t^2 rays, s^2 that of one
- * ray (engine/ray_split.c), and the means of polygons by some number that no link lowers. What lies
- * between the two is all that links can spare. They cost rays, and discussions and sweeps, which
+ * ray (engine/ray_split.c), and the means of polygons by some number that coarse links lower little
+ * (engine/mended_error.c). What lies between the two is what links can surely spare. They cost rays, and discussions and sweeps, which
  * take as long as PAIR rays for each pair discussed. So where that comes to more than a QUARTER of
  * what can be spared before the coarsest links are done, there are none; but for a LITTLE of what
  * polygons take anyway there may be. Scenes whose coarse links are done within FEW pairs are not
