@@ -786,9 +786,9 @@ RAD_API const double *radGetElementErrorLimits(RadSolution solution);
 
 struct RadCorrectOptions {
     /* particles are traced until their noise in the L1 error of polygons is below this share of the
-     * reflected light; 0: RAD_CORRECT_NOISE, or, where links help, with `rays` 0, until what
-     * mending leaves of that error is thought to be below RAD_CORRECT_LEFT (engine/mended_error.c)
-     */
+     * reflected light; 0: RAD_CORRECT_NOISE, or, with `rays` 0, from RAD_CORRECT_PLAIN rays on
+     * until what mending leaves of that error is thought to be below RAD_CORRECT_LEFT
+     * (engine/mended_error.c) */
     double noise;
     /* or until about so many rays are cast. 0: as many as bring the error on places of 1e-4 of the
      * scene's area to RAD_CORRECT_PLACES, root mean square as in RadPlaces, and on until the noise
@@ -803,7 +803,8 @@ struct RadCorrectOptions {
     int own;
 };
 #define RAD_CORRECT_NOISE 0.0065
-#define RAD_CORRECT_LEFT 0.009
+#define RAD_CORRECT_LEFT 0.008
+#define RAD_CORRECT_PLAIN (1u << 20)
 #define RAD_CORRECT_PLACES 0.065
 #define RAD_CORRECT_LEAST (1u << 17)
 #define RAD_CORRECT_MOST (1u << 24)

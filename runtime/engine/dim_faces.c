@@ -235,30 +235,48 @@ static double plan_cheap(struct dim_faces *d, double rays)
     }
 }
 
-static double rays_of_others(const struct dim_faces *d, double share)
+/* That share of the light for all that are planned, or for all others. */
+static double rays_of(const struct dim_faces *d, int planned, double share)
 {
     double sum = 0;
     for (uint32_t j = 0; j < d->count; j++)
-        sum += d->polygon[j].planned ? 0 : rays_for(d, &d->polygon[j], share);
+        sum += d->polygon[j].planned == planned ? rays_for(d, &d->polygon[j], share) : 0;
     return sum;
 }
 
+static void give(struct dim_faces *d, int planned, double share)
+{
+    for (uint32_t j = 0; j < d->count; j++) {
+        struct dim_polygon *p = &d->polygon[j];
+        if (p->planned == planned)
+            p->wanted = p->paths + (uint64_t)paths_for(d, p, share);
+    }
+}
+
 /* How many paths each is to have in the end, if so many rays are left. The others: as the rest
- * allows, all the same share of their light, in steps of a fiftieth. */
+ * allows, all the same share of their light, in steps of a fiftieth. Where there are none those
+ * that are planned are made surer by it. */
 static void plan(struct dim_faces *d, double rays)
 {
-    double share = DIM_GOAL;
+    const double all = rays;
+    double share = DIM_GOAL, surer = DIM_SURE;
+    int others = 0;
     for (uint32_t j = 0; j < d->count; j++) {
         d->polygon[j].planned = 0;
         d->polygon[j].wanted = d->polygon[j].paths;
     }
     if (d->size == DIM_LARGE_ONES)
         rays = plan_cheap(d, rays);
-    while (share < 1 && rays_of_others(d, share) > rays)
+    for (uint32_t j = 0; j < d->count; j++)
+        others += !d->polygon[j].planned;
+    while (share < 1 && rays_of(d, 0, share) > rays)
         share *= 1.02;
-    for (uint32_t j = 0; j < d->count && share < 1; j++)
-        if (!d->polygon[j].planned)
-            d->polygon[j].wanted += (uint64_t)paths_for(d, &d->polygon[j], share);
+    if (share < 1)
+        give(d, 0, share);
+    while (surer < DIM_GOAL && rays_of(d, 1, surer) > all)
+        surer *= 1.02;
+    if (!others && surer < DIM_GOAL)
+        give(d, 1, surer);
 }
 
 /* A few paths of each; half of what is then planned; then all. */

@@ -227,12 +227,15 @@ static int mend_polygons(struct solve *s, const struct tracer *t, const struct t
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 
-/* Dim polygons, by as many rays as mending took or would have without links (unaided); they are
- * added to *spent. Returns 0, or -1 when out of memory or cancelled. */
+/* Dim polygons, by as many rays as mending would have taken without links (unaided), and what links
+ * have spared of these, if large ones want it; they are added to *spent. Returns 0, or -1 when out
+ * of memory or cancelled.
+ */
 static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
                     double unaided, struct measured_error *alone, uint64_t *spent)
 {
-    double mending = (double)tally->rays, paths = DIM_RAYS * fmax(mending, unaided),
+    double mending = (double)tally->rays, spared = fmax(unaided - mending, 0),
+           paths = DIM_RAYS * (mending + spared) + spared,
            both = fmax(DIM_FEW - (double)s->report.counts.rays - mending, 0),
            budget = fmax(paths, both);
     struct watched watched = {.solve = s,
@@ -243,7 +246,7 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
     struct dim_count small;
     if (mend_polygons(s, t, tally, DIM_LARGE_ONES, paths, both, &watch, spent, &alone->dim) < 0)
         return -1;
-    const double left = fmin(fmax(paths, DIM_SMALL), both - (double)*spent);
+    const double left = fmin(fmax(DIM_RAYS * mending, DIM_SMALL), both - (double)*spent);
     return left > 0 ? mend_polygons(s, t, tally, DIM_SMALL_ONES, left, 0, &watch, spent, &small)
                     : 0;
 }
@@ -297,7 +300,7 @@ static int times_wanted(struct solve *s, struct tally *tally, const struct mendi
     if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0)
         return -1;
     *times = *alone = noise.all * noise.all / (goal->noise * goal->noise);
-    if (!(*times > 1 && goal->left > 0))
+    if (!(*times > 1 && goal->left > 0 && tally->rays >= goal->plain))
         return 0;
     if (mended_error_find(s, tally, &noise, &left) < 0)
         return -1;
