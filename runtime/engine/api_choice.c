@@ -2,11 +2,12 @@
  *
  * Particles know all light without a link: places to an error t by s^2 / t^2 rays, s^2 that of one
  * ray (engine/ray_split.c), and the means of polygons by some number that coarse links lower little
- * (engine/mended_error.c). What lies between the two is what links can surely spare. They cost rays, and discussions and sweeps, which
- * take as long as PAIR rays for each pair discussed. So where that comes to more than a QUARTER of
- * what can be spared before the coarsest links are done, there are none; but for a LITTLE of what
- * polygons take anyway there may be. Scenes whose coarse links are done within FEW pairs are not
- * asked, nor whoever says how to solve for links or wants to keep them.
+ * (engine/mended_error.c). What lies between the two is what links can surely spare. They cost
+ * rays, and discussions and sweeps, which take as long as PAIR rays for each pair discussed. So
+ * where that comes to more than a QUARTER of what can be spared before the coarsest links are done,
+ * there are none; but for a LITTLE of what polygons take anyway there may be. Scenes whose coarse
+ * links are done within FEW pairs are not asked, nor whoever says how to solve for links or wants
+ * to keep them.
  *
  * Links of error e, point by point, and L rays are worth these only where particles from as many
  * would be farther off: e^2 < s^2 / L. So links come coarse first, with thresholds times COARSE,
