@@ -100,7 +100,7 @@ leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correctio
 hidden at its middle, hidden all over | runtime/engine/sight_outlines.c | s/met &= sight_faces_met/(void)sight_faces_met/ | runtime/check_outlines
 half of what stands before a piece | runtime/engine/exchange_sight.c | s/memcpy(list_of(l, at), b->list, (size_t)b->faces/& \/ 2/ | runtime/check_outlines
 counted by nobody, surely nothing | runtime/engine/mend_clusters.c | s/known \* noise + (1 - known) \* chance/noise/ | runtime/check_measured_error
-the worst of all thresholds | runtime/engine/mend_clusters.c | s/r->risk\[i\] < r->risk\[best\]/r->risk[i] > r->risk[best]/ | runtime/check_mended_error
+the worst of all thresholds | runtime/engine/mend_clusters.c | s/r->left\[i\] < r->left\[best\]/r->left[i] > r->left[best]/ | runtime/check_mended_error
 thresholds that noise chooses | runtime/engine/mend_clusters.c | s,? 4 \* h / children \* note->replicates,? 0 * h / children, | runtime/check_mended_error
 large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + (sums/0 * noise->large + (sums/ | runtime/check_mended_error
 no link spares a ray | runtime/engine/measured_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error

@@ -46,19 +46,24 @@ struct note {
     double seen, replicates, noise, chance;
 };
 
-/* Sums over a class: of s^2; of the squared error that each threshold leaves, and of its square. */
-struct class
-{
-    double noise, chance, risk[THRESHOLDS], square[THRESHOLDS];
+/* Sums over a class: of s^2 by replicates and by chance; */
+struct class_noise {
+    double noise, chance;
 };
-enum { SUMS = 2 + 2 * THRESHOLDS };
-_Static_assert(sizeof(struct class) == SUMS * sizeof(double), "sums are told as they stand");
+/* of s^2 by both; of the squared error that each threshold leaves, and of its square. */
+struct class_risk {
+    double noise, left[THRESHOLDS], square[THRESHOLDS];
+};
+_Static_assert(sizeof(struct class_noise) == 2 * sizeof(double)
+                   && sizeof(struct class_risk) == (1 + 2 * THRESHOLDS) * sizeof(double),
+               "sums are told as they stand");
 
 struct clusters {
     const struct mend_sums *sums;
     const uint32_t *parent;
-    struct note *note; /* [cluster * bands + band] */
-    struct class class[MEND_CLASSES];
+    struct note *note; /* [count * bands] */
+    uint32_t count;
+    struct class_noise noise[MEND_CLASSES];
     double best[MEND_CLASSES]; /* threshold */
     double left[MEND_CLASSES]; /* what that leaves, over s^2 */
 };
@@ -119,54 +124,69 @@ static void note_some(const void *clusters, size_t from, size_t to)
 /* s^2 */
 static double noise_in(const struct clusters *x, const struct note *note)
 {
-    const struct class *c = &x->class[note->class];
+    const struct class_noise *c = &x->noise[note->class];
     return c->chance > 0 ? 0.5 * (note->noise + note->chance * c->noise / c->chance) : note->noise;
 }
 
-/* Add what thresholds would leave; children: one less than there are. */
-static void add_risk(struct class *class, const struct note *note, double noise, double children)
+/* Is it in the sums that this rank makes of its class? */
+static int counts(const struct clusters *x, size_t note)
+{
+    return x->note[note].class != NOTHING
+           && mend_is_noted(x->sums, x->parent[note / x->sums->bands]);
+}
+
+static void add_up(const struct mend_sums *m, void *sums, size_t values)
+{
+    if (m->op->shares.common)
+        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, sums, values);
+}
+
+/* Sums are taken in the order of clusters, whoever took the notes: first of noise, */
+static void sum_noise(struct clusters *x)
+{
+    for (size_t i = 0; i < (size_t)x->count * x->sums->bands; i++)
+        if (counts(x, i)) {
+            x->noise[x->note[i].class].noise += x->note[i].noise;
+            x->noise[x->note[i].class].chance += x->note[i].chance;
+        }
+    add_up(x->sums, x->noise, (size_t)2 * MEND_CLASSES);
+}
+
+/* then of what thresholds would leave; children: one less than there are. */
+static void add_risk(struct class_risk *class, const struct note *note, double noise,
+                     double children)
 {
     class->noise += noise;
     for (int i = 0; i < THRESHOLDS && noise > 0; i++) {
         const double h = fmin(1, threshold[i] * noise / note->seen),
-                     risk = h * h * note->seen + (1 - 2 * h) * note->replicates
+                     left = h * h * note->seen + (1 - 2 * h) * note->replicates
                             + (h < 1 ? 4 * h / children * note->replicates : 0);
-        class->risk[i] += risk;
-        class->square[i] += risk * risk;
+        class->left[i] += left;
+        class->square[i] += left * left;
     }
 }
 
-/* In the order of clusters, whoever took the notes. */
-static void choose(struct clusters *x, uint32_t count)
+/* To what is left comes a standard deviation of it, as classes may be small. */
+static void choose_thresholds(struct clusters *x)
 {
     const struct mend_sums *m = x->sums;
-    const size_t notes = (size_t)count * m->bands;
-    for (size_t i = 0; i < notes; i++)
-        if (x->note[i].class != NOTHING && mend_is_noted(m, x->parent[i / m->bands])) {
-            x->class[x->note[i].class].noise += x->note[i].noise;
-            x->class[x->note[i].class].chance += x->note[i].chance;
+    struct class_risk risk[MEND_CLASSES] = {{0, {0}, {0}}};
+    for (size_t i = 0; i < (size_t)x->count * m->bands; i++)
+        if (counts(x, i)) {
+            const struct element *e = &m->op->hierarchy->elements[x->parent[i / m->bands]];
+            add_risk(&risk[x->note[i].class], &x->note[i], noise_in(x, &x->note[i]),
+                     fmax(1, e->children - 1.0));
         }
-    if (m->op->shares.common)
-        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, &x->class[0].noise, MEND_CLASSES * SUMS);
-    struct class risk[MEND_CLASSES] = {{0, 0, {0}, {0}}};
-    for (size_t i = 0; i < notes; i++) {
-        const struct note *note = &x->note[i];
-        const uint32_t e = x->parent[i / m->bands];
-        if (note->class != NOTHING && mend_is_noted(m, e))
-            add_risk(&risk[note->class], note, noise_in(x, note),
-                     m->op->hierarchy->elements[e].children - 1.0);
-    }
-    if (m->op->shares.common)
-        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, &risk[0].noise, MEND_CLASSES * SUMS);
+    add_up(m, risk, (size_t)(1 + 2 * THRESHOLDS) * MEND_CLASSES);
     for (int c = 0; c < MEND_CLASSES; c++) {
-        const struct class *r = &risk[c];
+        const struct class_risk *r = &risk[c];
         int best = 0;
         for (int i = 1; i < THRESHOLDS; i++)
-            if (r->risk[i] < r->risk[best])
+            if (r->left[i] < r->left[best])
                 best = i;
         x->best[c] = threshold[best];
         x->left[c] =
-            r->noise > 0 ? fmin(1, (fmax(r->risk[best], 0) + sqrt(r->square[best])) / r->noise) : 1;
+            r->noise > 0 ? fmin(1, (fmax(r->left[best], 0) + sqrt(r->square[best])) / r->noise) : 1;
     }
 }
 
@@ -210,14 +230,15 @@ int mend_clusters(const struct mend_sums *m, const uint32_t *parent, uint32_t co
                   double *irradiance, double *doubt)
 {
     const int threads = m->op->problem->options.threads;
-    struct clusters x = {.sums = m, .parent = parent};
+    struct clusters x = {.sums = m, .parent = parent, .count = count};
     x.note = malloc(((size_t)count * m->bands + 1) * sizeof *x.note);
     if (ranks_any(m->op->shares.ranks, !x.note)) {
         free(x.note);
         return -1;
     }
     thread_pool_run(threads, count, RUN, note_some, &x);
-    choose(&x, count);
+    sum_noise(&x);
+    choose_thresholds(&x);
     for (uint32_t k = 0; k < m->bands && doubt; k++)
         doubt[k] = 0;
     for (uint32_t k = 0; k < m->bands && mend_is_here(&m->places, 0); k++)
