@@ -16,6 +16,8 @@
 #include "util/report.h"
 #include "util/temporary.h"
 
+enum { BUFFER = 1 << 18 }; /* of the C library's 4 KiB each would be a call of the system */
+
 static int fail(struct atomic_file *file, int cause)
 {
     report_error(file->path ? file->path : "output", 0, "cannot write: %s; %s", strerror(cause),
@@ -76,7 +78,12 @@ int atomic_open(struct atomic_file *file, const char *path)
             return fail(file, errno);
         file->stream = open_temporary(file);
     }
-    return file->stream ? 0 : fail(file, errno);
+    if (!file->stream)
+        return fail(file, errno);
+    file->buffer = malloc(BUFFER); /* without one it is slower, no more */
+    if (file->buffer)
+        setvbuf(file->stream, file->buffer, _IOFBF, BUFFER);
+    return 0;
 }
 
 int atomic_check(const char *path)
@@ -134,6 +141,7 @@ void atomic_discard(struct atomic_file *file)
         temporary_forget(file->temporary);
         temporary_unlock();
     }
+    free(file->buffer);
     free(file->temporary);
     free(file->target);
     free(file->path);

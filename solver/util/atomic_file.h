@@ -13,6 +13,7 @@ struct atomic_file {
     FILE *stream;    /* write here; NULL when not open */
     char *path;      /* as the caller named it, for messages */
     char *target;    /* the file behind path, symbolic links resolved */
+    char *buffer;    /* of the stream */
     char *temporary; /* NULL when path is a device or a pipe, which is written in place */
 };
 
