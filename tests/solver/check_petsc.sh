@@ -141,7 +141,7 @@ ranks() { # SCENE RANKS ARGUMENTS...: in one process and in several
         # Mending adds up what ranks have of their own: last bits are others.
         check "$name ${*:3} on $n ranks: power_absorbed $(value several.json power_absorbed), alone $(value one.json power_absorbed)" \
             awk -v a="$(value several.json power_absorbed)" -v b="$(value one.json power_absorbed)" 'BEGIN { d = a - b; exit !(d * d <= 1e-24 * a * a) }'
-        check "$name ${*:3} on $n ranks: other light on faces" light one.csv several.csv 2e-12
+        check "$name ${*:3} on $n ranks: other light on faces" same_faces one.csv several.csv
         rm -f several.*
     done
 }

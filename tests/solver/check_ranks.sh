@@ -33,14 +33,6 @@ rank_of() { # COMMAND RANK: wait for the process, then $found is its number
 # ---- the same answer
 value() { sed -n "s/^  \"$2\": \(.*[^,]\),*$/\1/p" "$1" | head -n 1; }
 near() { within "$1" "$2" 1e-12; }
-same_faces() { # A B: all numbers of two tables, but for one in the last of the 12 digits that are printed
-    awk -F, 'function last(m) { return m > 0 ? exp(log(10) * (int(log(m) / log(10) + 1000) - 1000 - 11)) : 0 }
-             NR == FNR { line[FNR] = $0; n = FNR; next }
-             FNR > 1 { k = split(line[FNR], other, ","); if (k != NF) exit 1
-                       for (i = 3; i <= NF; i++) { d = $i - other[i]; m = $i < 0 ? -$i : $i
-                                                   if (d < 0) d = -d; if (d > 1.01 * last(m) + 1e-300) exit 1 } }
-             END { exit FNR != n }' "$1" "$2"
-}
 how= # options
 compare_ranks() { # SCENE RANKS...: against one process
     local scene=$1 name n
