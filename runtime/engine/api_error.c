@@ -154,11 +154,9 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                         o->noise);
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
     struct mending_goal goal = {.noise = noise, .most = o->rays, .own = o->own};
-    if (!(o->noise > 0) && !o->rays) {
-        goal.left = RAD_CORRECT_LEFT;
-        goal.plain = RAD_CORRECT_PLAIN;
-    }
     if (!o->rays) {
+        goal.left = o->noise > 0 ? 0 : RAD_CORRECT_LEFT;
+        goal.plain = RAD_CORRECT_PLAIN;
         goal.places = RAD_CORRECT_PLACES;
         goal.least = RAD_CORRECT_LEAST;
         goal.most = most_rays(solution);

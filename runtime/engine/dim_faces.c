@@ -259,8 +259,7 @@ static void give(struct dim_faces *d, int planned, double share)
 static void plan(struct dim_faces *d, double rays)
 {
     const double all = rays;
-    double share = DIM_GOAL, surer = DIM_SURE;
-    int others = 0;
+    int sure = 1;
     for (uint32_t j = 0; j < d->count; j++) {
         d->polygon[j].planned = 0;
         d->polygon[j].wanted = d->polygon[j].paths;
@@ -268,15 +267,13 @@ static void plan(struct dim_faces *d, double rays)
     if (d->size == DIM_LARGE_ONES)
         rays = plan_cheap(d, rays);
     for (uint32_t j = 0; j < d->count; j++)
-        others += !d->polygon[j].planned;
-    while (share < 1 && rays_of(d, 0, share) > rays)
+        sure &= d->polygon[j].planned;
+    double share = sure ? DIM_SURE : DIM_GOAL;
+    const double most = sure ? DIM_GOAL : 1, left = sure ? all : rays;
+    while (share < most && rays_of(d, sure, share) > left)
         share *= 1.02;
-    if (share < 1)
-        give(d, 0, share);
-    while (surer < DIM_GOAL && rays_of(d, 1, surer) > all)
-        surer *= 1.02;
-    if (!others && surer < DIM_GOAL)
-        give(d, 1, surer);
+    if (share < most)
+        give(d, sure, share);
 }
 
 /* A few paths of each; half of what is then planned; then all. */

@@ -16,10 +16,7 @@ static inline double leaf_count(const struct tally *tally, const struct hierarch
     const struct element *at = &h->elements[leaf];
     const uint32_t whole = h->face_element[at->face];
     const double all = irradiance[(size_t)whole * tally->bands + band];
-    double counted = 0;
-    for (int r = 0; r < REPLICATES; r++)
-        counted += tally_face(tally, r, at->face, band) / REPLICATES;
-    return counted * (at->area / h->elements[whole].area)
+    return tally_face_mean(tally, at->face, band) * (at->area / h->elements[whole].area)
            * (all > 0 ? irradiance[(size_t)leaf * tally->bands + band] / all : 1);
 }
 

@@ -57,8 +57,6 @@ struct note {
 
 struct mending {
     struct mend_sums sums;
-    const struct light_operator *op;
-    uint32_t bands;
     double *irradiance; /* [element * bands + band]: by links, then mended (W/m2) */
     struct levels levels;
     /* of the level that is mended now: elements that have children; what each adds to the sums */
@@ -76,8 +74,9 @@ enum { RUN = 256 /* elements that a thread takes at once */ };
 /* Where the irradiance of an element is. */
 static size_t at_element(const struct mending *m, uint32_t element, uint32_t band)
 {
-    return (size_t)element * m->bands + band;
+    return (size_t)element * m->sums.bands + band;
 }
+
 /* What was counted on it, a mean (W). */
 static double received(const struct mending *m, uint32_t element, uint32_t band)
 {
@@ -88,9 +87,9 @@ static double received(const struct mending *m, uint32_t element, uint32_t band)
 static double correction(const struct mending *m, uint32_t e, uint32_t k)
 {
     double linked = m->sums.linked[mend_at(&m->sums, e, k)];
-    return linked > 0
-               ? m->irradiance[at_element(m, e, k)] * m->op->hierarchy->elements[e].area / linked
-               : 1;
+    return linked > 0 ? m->irradiance[at_element(m, e, k)] * m->sums.op->hierarchy->elements[e].area
+                            / linked
+                      : 1;
 }
 
 /* What the children of e lack of `given`, foretold: the correction of e and of its siblings, as a
@@ -98,10 +97,10 @@ static double correction(const struct mending *m, uint32_t e, uint32_t k)
 static int foretell(const struct mending *m, uint32_t e, uint32_t k, const double *given,
                     double lack[MEND_CHILDREN])
 {
-    const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
+    const struct element *elements = m->sums.op->hierarchy->elements, *at = &elements[e];
     const struct element *parent = &elements[at->parent];
     double own = correction(m, e, k), u[3], v[3], uu = 0, uv = 0, vv = 0, ur = 0, vr = 0, sum = 0;
-    if (!at->vertices || !at->depth || !(own > 0))
+    if (!at->depth || !(own > 0))
         return 0;
     sub3(u, elements[parent->child].centre, parent->centre);
     cross3(v, parent->normal, u);
@@ -134,7 +133,7 @@ static int foretell(const struct mending *m, uint32_t e, uint32_t k, const doubl
 /* m^2 and s^2 among the children of e, which some particles met. */
 static struct sight see(const struct mending *m, uint32_t e, uint32_t k, const double *given)
 {
-    const struct element *at = &m->op->hierarchy->elements[e];
+    const struct element *at = &m->sums.op->hierarchy->elements[e];
     double noise = 0, seen = 0, whole = received(m, e, k);
     for (uint32_t c = 0; c < at->children; c++) {
         uint32_t j = at->child + c;
@@ -165,13 +164,13 @@ static void foretold_shares(const struct mending *m, uint32_t e, uint32_t k,
     mend_shares(&m->sums, e, k, given);
     if (!(t->product > MEND_EVIDENCE * sqrt(t->noise)) || !foretell(m, e, k, given, lack))
         return;
-    for (uint32_t c = 0; c < m->op->hierarchy->elements[e].children; c++)
+    for (uint32_t c = 0; c < m->sums.op->hierarchy->elements[e].children; c++)
         given[c] += fmin(1, t->product / t->square) * lack[c];
 }
 
 static struct note note_trend(const struct mending *m, uint32_t e, uint32_t k)
 {
-    const struct element *at = &m->op->hierarchy->elements[e];
+    const struct element *at = &m->sums.op->hierarchy->elements[e];
     struct note note = {.class = NOTHING};
     double given[MEND_CHILDREN], lack[MEND_CHILDREN], whole = received(m, e, k);
     mend_shares(&m->sums, e, k, given);
@@ -192,8 +191,8 @@ static struct note note_trend(const struct mending *m, uint32_t e, uint32_t k)
 /* Its parent's parent, as far up as they are of one face: the head of its kin. */
 static uint32_t elder(const struct mending *m, uint32_t e)
 {
-    const struct element *elements = m->op->hierarchy->elements;
-    for (int up = 0; up < 2 && elements[e].vertices && elements[e].depth > 0; up++)
+    const struct element *elements = m->sums.op->hierarchy->elements;
+    for (int up = 0; up < 2 && elements[e].depth > 0; up++)
         e = elements[e].parent;
     return e;
 }
@@ -228,7 +227,7 @@ static double above_noise(const struct mending *m, uint32_t e, uint32_t k)
 /* Share out what e receives, mended by now, among its children. */
 static void share_out(const struct mending *m, uint32_t e, uint32_t k)
 {
-    const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
+    const struct element *elements = m->sums.op->hierarchy->elements, *at = &elements[e];
     double given[MEND_CHILDREN], whole = m->irradiance[at_element(m, e, k)] * at->area;
     double counted = received(m, e, k), belief = 0;
     foretold_shares(m, e, k, given);
@@ -249,23 +248,23 @@ static void note_trends(const void *mending, size_t from, size_t to)
 {
     const struct mending *m = mending;
     for (size_t i = from; i < to; i++)
-        for (uint32_t k = 0; k < m->bands; k++)
-            m->note[i * m->bands + k] = note_trend(m, m->parent[i], k);
+        for (uint32_t k = 0; k < m->sums.bands; k++)
+            m->note[i * m->sums.bands + k] = note_trend(m, m->parent[i], k);
 }
 
 static void note_sights(const void *mending, size_t from, size_t to)
 {
     const struct mending *m = mending;
     for (size_t i = from; i < to; i++)
-        for (uint32_t k = 0; k < m->bands; k++)
-            m->note[i * m->bands + k] = note_sight(m, m->parent[i], k);
+        for (uint32_t k = 0; k < m->sums.bands; k++)
+            m->note[i * m->sums.bands + k] = note_sight(m, m->parent[i], k);
 }
 
 static void share_all_out(const void *mending, size_t from, size_t to)
 {
     const struct mending *m = mending;
     for (size_t i = from; i < to; i++)
-        for (uint32_t k = 0; k < m->bands; k++)
+        for (uint32_t k = 0; k < m->sums.bands; k++)
             share_out(m, m->parent[i], k);
 }
 
@@ -273,7 +272,7 @@ static void share_all_out(const void *mending, size_t from, size_t to)
 static void add_trends(struct mending *m)
 {
     memset(m->trend, 0, sizeof m->trend);
-    for (size_t i = 0; i < (size_t)m->parents * m->bands; i++) {
+    for (size_t i = 0; i < (size_t)m->parents * m->sums.bands; i++) {
         const struct note *note = &m->note[i];
         if (note->class == NOTHING)
             continue;
@@ -286,7 +285,7 @@ static void add_trends(struct mending *m)
 
 static void add_sights(struct mending *m)
 {
-    const size_t notes = (size_t)m->parents * m->bands;
+    const size_t notes = (size_t)m->parents * m->sums.bands;
     memset(m->class, 0, sizeof m->class);
     for (size_t i = 0; i < notes; i++)
         if (m->note[i].class != NOTHING)
@@ -296,33 +295,27 @@ static void add_sights(struct mending *m)
         if (note->class == NOTHING)
             continue;
         const struct sight *own = &note->sight;
-        if (mend_is_noted(&m->sums, m->parent[i / m->bands]))
+        if (mend_is_noted(&m->sums, m->parent[i / m->sums.bands]))
             add_sight(&m->class[note->class], own);
         add_sight(&m->kin[mend_place(&m->sums.places, note->elder)], own);
     }
 }
 
-/* The same of all ranks, where each has notes of its own: three numbers for each class. */
-static void add_up(const struct mending *m, void *classes)
-{
-    _Static_assert(sizeof(struct trend) == 3 * sizeof(double)
-                       && sizeof(struct sight) == 3 * sizeof(double),
-                   "sums are told as they stand");
-    if (m->op->shares.common)
-        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, classes, 3 * MEND_CLASSES);
-}
+_Static_assert(sizeof(struct trend) == 3 * sizeof(double)
+                   && sizeof(struct sight) == 3 * sizeof(double),
+               "sums are told as they stand");
 
 static void mend_level(struct mending *m, uint32_t level)
 {
-    const int threads = m->op->problem->options.threads;
+    const int threads = m->sums.op->problem->options.threads;
     m->parent = &m->levels.parent[m->levels.from[level]];
     m->parents = m->levels.from[level + 1] - m->levels.from[level];
     thread_pool_run(threads, m->parents, RUN, note_trends, m);
     add_trends(m);
-    add_up(m, m->trend);
+    mend_add_up(&m->sums, m->trend, (size_t)3 * MEND_CLASSES);
     thread_pool_run(threads, m->parents, RUN, note_sights, m);
     add_sights(m);
-    add_up(m, m->class);
+    mend_add_up(&m->sums, m->class, (size_t)3 * MEND_CLASSES);
     thread_pool_run(threads, m->parents, RUN, share_all_out, m);
 }
 
@@ -343,8 +336,8 @@ static uint32_t levels_of_all(const struct mending *m)
     for (uint32_t i = 0; i < LEVELS; i++)
         if (m->levels.from[i + 1] > m->levels.from[i])
             count = i + 1;
-    if (m->op->shares.common)
-        ranks_most(m->op->shares.ranks, RANKS_PARTICLES, &count, 1);
+    if (m->sums.op->shares.common)
+        ranks_most(m->sums.op->shares.ranks, RANKS_PARTICLES, &count, 1);
     return (uint32_t)count;
 }
 
@@ -359,13 +352,13 @@ static int open_levels(struct levels *l, const struct light_operator *op)
 
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance)
 {
-    struct mending m = {.op = op, .bands = tally->bands, .irradiance = irradiance};
+    struct mending m = {.irradiance = irradiance};
     int failed = open_levels(&m.levels, op) < 0
                  || mend_sums_open(&m.sums, op, tally, MEND_LEAVES, irradiance) < 0
-                 || mend_clusters(&m.sums, m.levels.parent, m.levels.from[1], irradiance, NULL) < 0;
+                 || mend_clusters(&m.sums, irradiance, NULL) < 0;
     if (!failed) {
         m.kin = malloc(((size_t)m.sums.places.count + 1) * sizeof *m.kin);
-        m.note = malloc(((size_t)widest(&m.levels) * m.bands + 1) * sizeof *m.note);
+        m.note = malloc(((size_t)widest(&m.levels) * m.sums.bands + 1) * sizeof *m.note);
         failed = ranks_any(op->shares.ranks, !m.kin || !m.note);
     }
     const uint32_t count = failed ? 0 : levels_of_all(&m);
@@ -381,12 +374,9 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
 int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
                double *irradiance, double *doubt)
 {
-    struct levels levels = {.parent = NULL};
-    struct mend_sums sums = {.op = NULL};
-    const int failed =
-        open_levels(&levels, op) < 0 || mend_sums_open(&sums, op, tally, MEND_FACES, light) < 0
-        || mend_clusters(&sums, levels.parent, levels.from[1], irradiance, doubt) < 0;
+    struct mend_sums sums;
+    const int failed = mend_sums_open(&sums, op, tally, MEND_FACES, light) < 0
+                       || mend_clusters(&sums, irradiance, doubt) < 0;
     mend_sums_close(&sums);
-    levels_close(&levels);
     return failed ? -1 : 0;
 }

@@ -60,7 +60,7 @@ _Static_assert(sizeof(struct class_noise) == 2 * sizeof(double)
 
 struct clusters {
     const struct mend_sums *sums;
-    const uint32_t *parent;
+    uint32_t *parent;  /* [count]: those that this rank mends, parents first */
     struct note *note; /* [count * bands] */
     uint32_t count;
     struct class_noise noise[MEND_CLASSES];
@@ -135,12 +135,6 @@ static int counts(const struct clusters *x, size_t note)
            && mend_is_noted(x->sums, x->parent[note / x->sums->bands]);
 }
 
-static void add_up(const struct mend_sums *m, void *sums, size_t values)
-{
-    if (m->op->shares.common)
-        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, sums, values);
-}
-
 /* Sums are taken in the order of clusters, whoever took the notes: first of noise, */
 static void sum_noise(struct clusters *x)
 {
@@ -149,7 +143,7 @@ static void sum_noise(struct clusters *x)
             x->noise[x->note[i].class].noise += x->note[i].noise;
             x->noise[x->note[i].class].chance += x->note[i].chance;
         }
-    add_up(x->sums, x->noise, (size_t)2 * MEND_CLASSES);
+    mend_add_up(x->sums, x->noise, (size_t)2 * MEND_CLASSES);
 }
 
 /* then of what thresholds would leave; children: one less than there are. */
@@ -177,7 +171,7 @@ static void choose_thresholds(struct clusters *x)
             add_risk(&risk[x->note[i].class], &x->note[i], noise_in(x, &x->note[i]),
                      fmax(1, e->children - 1.0));
         }
-    add_up(m, risk, (size_t)(1 + 2 * THRESHOLDS) * MEND_CLASSES);
+    mend_add_up(m, risk, (size_t)(1 + 2 * THRESHOLDS) * MEND_CLASSES);
     for (int c = 0; c < MEND_CLASSES; c++) {
         const struct class_risk *r = &risk[c];
         int best = 0;
@@ -226,26 +220,37 @@ static void mend_scene(const struct mend_sums *m, uint32_t k, double *irradiance
     irradiance[k] = (linked + belief * off) / m->op->hierarchy->elements[0].area;
 }
 
-int mend_clusters(const struct mend_sums *m, const uint32_t *parent, uint32_t count,
-                  double *irradiance, double *doubt)
+static int clusters_open(struct clusters *x)
 {
-    const int threads = m->op->problem->options.threads;
-    struct clusters x = {.sums = m, .parent = parent, .count = count};
-    x.note = malloc(((size_t)count * m->bands + 1) * sizeof *x.note);
-    if (ranks_any(m->op->shares.ranks, !x.note)) {
-        free(x.note);
-        return -1;
+    const struct mend_sums *m = x->sums;
+    const struct hierarchy *h = m->op->hierarchy;
+    x->parent = malloc(((size_t)h->built + 1) * sizeof *x->parent);
+    for (uint32_t e = 0; x->parent && e < h->built; e++)
+        if (!h->elements[e].vertices && mend_is_added(m->op, e))
+            x->parent[x->count++] = e;
+    x->note = malloc(((size_t)x->count * m->bands + 1) * sizeof *x->note);
+    return ranks_any(m->op->shares.ranks, !x->parent || !x->note) ? -1 : 0;
+}
+
+int mend_clusters(const struct mend_sums *m, double *irradiance, double *doubt)
+{
+    struct clusters x = {.sums = m};
+    const int failed = clusters_open(&x) < 0;
+    if (!failed) {
+        thread_pool_run(m->op->problem->options.threads, x.count, RUN, note_some, &x);
+        sum_noise(&x);
+        choose_thresholds(&x);
     }
-    thread_pool_run(threads, count, RUN, note_some, &x);
-    sum_noise(&x);
-    choose_thresholds(&x);
-    for (uint32_t k = 0; k < m->bands && doubt; k++)
-        doubt[k] = 0;
-    for (uint32_t k = 0; k < m->bands && mend_is_here(&m->places, 0); k++)
-        mend_scene(m, k, irradiance);
-    for (size_t i = 0; i < count; i++) /* clusters get their light from those before them */
+    for (uint32_t k = 0; k < m->bands && !failed; k++) {
+        if (doubt)
+            doubt[k] = 0;
+        if (mend_is_here(&m->places, 0))
+            mend_scene(m, k, irradiance);
+    }
+    for (size_t i = 0; i < x.count && !failed; i++) /* they get light from those before them */
         for (uint32_t k = 0; k < m->bands; k++)
-            share_out(&x, parent[i], k, &x.note[i * m->bands + k], irradiance, doubt);
+            share_out(&x, x.parent[i], k, &x.note[i * m->bands + k], irradiance, doubt);
+    free(x.parent);
     free(x.note);
-    return 0;
+    return failed ? -1 : 0;
 }

@@ -6,11 +6,9 @@
 #include "engine/mend_sums.h"
 
 /* What the scene receives, and how it is shared out among clusters down to faces:
- * irradiance[element * bands + band] (W/m2). parent[count]: the clusters that this rank mends,
- * parents first. doubt: NULL, or likewise the square of the error that is left, over that of the
- * irradiance, in the mean of clusters as large. Returns 0, or -1 on all ranks when any is out of
- * memory. */
-int mend_clusters(const struct mend_sums *m, const uint32_t *parent, uint32_t count,
-                  double *irradiance, double *doubt);
+ * irradiance[element * bands + band] (W/m2). doubt: NULL, or likewise the square of the error that
+ * is left, over that of the irradiance, in the mean of clusters as large. Returns 0, or -1 on all
+ * ranks when any is out of memory. */
+int mend_clusters(const struct mend_sums *m, double *irradiance, double *doubt);
 
 #endif

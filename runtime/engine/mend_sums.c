@@ -58,10 +58,8 @@ static void fill_faces(const struct mend_sums *m, const double *irradiance)
         if (e != whole)
             continue;
         take_face(m, e, at->face);
-        for (uint32_t r = 0; r < REPLICATES; r++)
-            for (uint32_t k = 0; k < m->bands; k++)
-                m->received[mend_at(m, e, k)] +=
-                    tally_face(m->tally, (int)r, at->face, k) / REPLICATES;
+        for (uint32_t k = 0; k < m->bands; k++)
+            m->received[mend_at(m, e, k)] = tally_face_mean(m->tally, at->face, k);
     }
 }
 

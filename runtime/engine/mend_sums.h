@@ -4,6 +4,7 @@
 #ifndef MEND_SUMS_H
 #define MEND_SUMS_H
 
+#include <math.h>
 #include "engine/mend_places.h"
 #include "particles/particles.h"
 
@@ -59,6 +60,13 @@ static inline int mend_class(const struct mend_sums *m, uint32_t e, uint32_t ban
 static inline int mend_is_noted(const struct mend_sums *m, uint32_t e)
 {
     return !m->op->shares.common || shares_counts(&m->op->shares, e);
+}
+
+/* Sums of classes, of all ranks where each has elements of its own. */
+static inline void mend_add_up(const struct mend_sums *m, void *sums, size_t values)
+{
+    if (m->op->shares.common)
+        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, sums, values);
 }
 
 #endif

@@ -39,8 +39,8 @@ static void sum_errors(const struct solve *s, const struct tally *tally, const d
     }
 }
 
-int mended_error_find(struct solve *s, const struct tally *tally, const struct face_noise *noise,
-                      double *error)
+int mended_error_find(const struct solve *s, const struct tally *tally,
+                      const struct face_noise *noise, double *error)
 {
     struct ranks *ranks = s->problem.options.ranks;
     const size_t values = (size_t)s->hierarchy.built * s->problem.bands + 1;

@@ -9,8 +9,8 @@
 /* The L1 error of polygons, as a share of the reflected light, once the particles of the tally mend
  * the links; noise: what particles alone would leave. The solution stays as it is. Returns 0, or -1
  * on all ranks when any is out of memory. */
-int mended_error_find(struct solve *s, const struct tally *tally, const struct face_noise *noise,
-                      double *error);
+int mended_error_find(const struct solve *s, const struct tally *tally,
+                      const struct face_noise *noise, double *error);
 
 /* How many times the particles bring that error to the goal. */
 double mended_error_wanted(double error, double noise, double goal);

@@ -126,6 +126,15 @@ static inline double tally_face(const struct tally *tally, int replicate, uint32
            * (1 + tally->correction[replicate][band]);
 }
 
+/* The same, mean of all replicates. */
+static inline double tally_face_mean(const struct tally *tally, uint32_t face, uint32_t band)
+{
+    double mean = 0;
+    for (int r = 0; r < REPLICATES; r++)
+        mean += tally_face(tally, r, face, band) / REPLICATES;
+    return mean;
+}
+
 /* W that one count on leaves stands for. */
 static inline double tally_leaf_unit(const struct tally *tally, uint32_t band)
 {
