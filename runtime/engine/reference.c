@@ -1,11 +1,15 @@
 /* reference.c - see reference.h.
  *
  * How sure. Of a polygon that many particles have met, how the replicates differ says how sure
- * its mean is. Of one that few have met, or none, they say as little of that as of the mean, and
- * where they say little of both, what is dark by chance would seem certain and count most: there
- * what chance alone would do to the light that paths find is taken, which the particles have no
- * part in. To either method one thing unseen is allowed for: one more particle at the polygon, one
- * more path that finds as much as an average place of the scene has.
+ * its mean is. Of one that few have met they say as little of that as of the mean: there what
+ * chance alone makes of so much light is taken, and where none came, of what paths find. To either
+ * method one thing unseen is allowed for: one more particle at the polygon, one more path that
+ * finds as much as an average place of the scene has.
+ *
+ * Few paths find light that comes through a small hole: most polygons behind it would seem certain,
+ * and a few on which one path lit would be far off. How paths scatter is therefore also asked of
+ * all polygons that as many particles met, and paths are passed over where they would not tell a
+ * good part.
  *
  * No method weighs itself. The mean of both is taken by weights that go against variances, and what
  * is dark by chance has too small a variance, too: by weights of their own polygons would be too
@@ -65,44 +69,84 @@ static double area_of(const struct reference *r, uint32_t face)
 struct half {
     double counted, square;  /* by particles; mean of the squares of replicates */
     double found, scattered; /* by paths, and the variance of that */
+    double light;            /* by particles, or where none came by paths */
 };
 
+/* Of polygons that about as many particles met: how many; the sum of variances of one path there
+ * (W^2/m4); the sum of squares of light. */
+struct alike {
+    double polygons, scattered, light;
+};
+
+enum { CLASSES = 32 };
+
 struct means {
-    double *area;      /* [input_count]: m2, all that the polygon became */
+    size_t count;      /* of polygons */
+    double *area;      /* [count]: m2, all that the polygon became */
     double *one;       /* the same, for what is being summed */
-    struct half *half; /* [input_count * PATH_HALVES + half] */
+    double *paths;     /* [count]: of each half */
+    struct half *half; /* [count * PATH_HALVES + half] */
+    struct alike alike[CLASSES];
 };
 
 static void means_close(struct means *m)
 {
     free(m->area);
     free(m->one);
+    free(m->paths);
     free(m->half);
 }
 
 static int means_open(struct means *m, size_t count)
 {
+    m->count = count;
     m->area = malloc((count + 1) * sizeof *m->area);
     m->one = malloc((count + 1) * sizeof *m->one);
+    m->paths = malloc((count + 1) * sizeof *m->paths);
     m->half = malloc((count + 1) * PATH_HALVES * sizeof *m->half);
-    if (m->area && m->one && m->half)
+    if (m->area && m->one && m->paths && m->half)
         return 0;
     means_close(m);
     return -1;
 }
 
+static int class_of(const struct reference *r, const struct half *h)
+{
+    const double particles = h->counted / tally_power_of_one(&r->tally);
+    return particles >= 1 ? (int)fmin(1 + log2(particles), CLASSES - 1) : 0;
+}
+
+/* What is known of each polygon's light, and how paths scatter where it is alike. */
+static void compare(const struct reference *r, struct means *m)
+{
+    memset(m->alike, 0, sizeof m->alike);
+    for (size_t i = 0; i < m->count * PATH_HALVES; i++) {
+        struct half *h = &m->half[i];
+        const double area = m->area[i / PATH_HALVES], paths = m->paths[i / PATH_HALVES];
+        h->light = paths > 0 && !(h->counted > 0) ? h->found : h->counted;
+        if (paths > 0 && area > 0) {
+            struct alike *alike = &m->alike[class_of(r, h)];
+            alike->polygons++;
+            alike->light += h->light * h->light / (area * area);
+            alike->scattered += h->scattered * paths / (area * area);
+        }
+    }
+}
+
 static void gather(const struct reference *r, uint32_t band, struct means *m)
 {
     const struct scene *scene = r->solve.problem.scene;
-    size_t count = scene->input_count;
+    size_t count = m->count;
     double mean_light = r->tally.power / r->solve.hierarchy.elements[0].area;
     memset(m->area, 0, count * sizeof *m->area);
+    memset(m->paths, 0, count * sizeof *m->paths);
     memset(m->half, 0, count * PATH_HALVES * sizeof *m->half);
     for (uint32_t i = 0; i < scene->face_count; i++) {
         uint32_t input = scene->faces[i].input;
         uint64_t paths = face_paths_count(&r->paths, i, r->paths.paths) / PATH_HALVES;
         double area = area_of(r, i), unseen = paths > 0 ? mean_light / (double)paths : 0;
         m->area[input] += area;
+        m->paths[input] += (double)paths;
         for (int h = 0; h < PATH_HALVES; h++) {
             struct half *half = &m->half[(size_t)input * PATH_HALVES + (size_t)h];
             double mean, variance;
@@ -121,6 +165,7 @@ static void gather(const struct reference *r, uint32_t band, struct means *m)
             half->square += m->one[i] * m->one[i] * PATH_HALVES / REPLICATES;
         }
     }
+    compare(r, m);
 }
 
 /* Irradiance of one polygon in one band by each method, and the variances (W/m2, squared). */
@@ -128,44 +173,63 @@ struct known {
     double mean[REFERENCE_METHODS], variance[REFERENCE_METHODS];
 };
 
-/* The variance of what so many replicates count at a polygon (W^2), where paths find `found`. */
-static double spread_of(const struct reference *r, const struct half *h, int replicates, int paths,
+/* The variance of what so many replicates count at a polygon (W^2). */
+static double spread_of(const struct reference *r, const struct half *h, int replicates,
                         uint32_t band)
 {
     double one = tally_power_of_one(&r->tally), share = (double)REPLICATES / replicates;
-    if (paths && h->found < REFERENCE_FEW * one)
-        return share * tally_chance(&r->tally, h->found, band);
+    if (h->light < REFERENCE_FEW * one)
+        return share * tally_chance(&r->tally, h->light, band);
     return fmax(h->square - h->counted * h->counted, 0) / (replicates - 1) + share * one * one;
+}
+
+/* The variance of what half of the paths find at a polygon (W^2), by those that as many particles
+ * met. Where none came it goes with the square of light. */
+static double alike_scatter(const struct reference *r, const struct means *m, size_t i,
+                            const struct half *half)
+{
+    const int class = class_of(r, half);
+    const struct alike *alike = &m->alike[class];
+    if (!(m->paths[i] > 0) || !(alike->light > 0))
+        return half->scattered;
+    const double share = class ? m->area[i] * m->area[i] / alike->polygons
+                               : half->light * half->light / alike->light;
+    return share * alike->scattered / m->paths[i];
 }
 
 static struct known weigh(const struct reference *r, const struct means *m, size_t i, uint32_t band)
 {
     struct known k = {{0, 0, 0}, {0, 0, 0}};
     const struct half *half = &m->half[i * PATH_HALVES];
-    double area = m->area[i], by_paths[PATH_HALVES];
-    struct half all = {0, 0, 0, 0};
+    double area = m->area[i], by_paths[PATH_HALVES], spread[PATH_HALVES], scattered[PATH_HALVES];
+    struct half all = {0, 0, 0, 0, 0};
     if (!(area > 0))
         return k;
-    int paths = half[0].scattered > 0, both = paths && r->tally.particles > 0;
+    int paths = m->paths[i] > 0, both = paths && r->tally.particles > 0;
     for (int h = 0; h < PATH_HALVES; h++) {
-        double spread = spread_of(r, &half[h], REPLICATES / PATH_HALVES, both, band);
-        by_paths[h] = both ? spread / (spread + half[h].scattered) : paths;
+        const double alike = alike_scatter(r, m, i, &half[h]);
+        spread[h] = spread_of(r, &half[h], REPLICATES / PATH_HALVES, band);
+        scattered[h] = (half[h].scattered + alike) / 2;
+        by_paths[h] = paths;
+        if (both && spread[h] > 0)
+            by_paths[h] = spread[h] / (spread[h] + fmax(half[h].scattered, alike));
+        if (both && by_paths[h] < REFERENCE_LEAST)
+            by_paths[h] = 0;
         all.counted += half[h].counted / PATH_HALVES;
         all.square += half[h].square / PATH_HALVES;
         all.found += half[h].found / PATH_HALVES;
-        all.scattered += half[h].scattered / (PATH_HALVES * PATH_HALVES);
+        all.scattered += scattered[h] / (PATH_HALVES * PATH_HALVES);
+        all.light += half[h].light / PATH_HALVES;
     }
     k.mean[REFERENCE_PARTICLES] = all.counted / area;
     k.mean[REFERENCE_PATHS] = all.found / area;
-    k.variance[REFERENCE_PARTICLES] = spread_of(r, &all, REPLICATES, both, band) / (area * area);
+    k.variance[REFERENCE_PARTICLES] = spread_of(r, &all, REPLICATES, band) / (area * area);
     k.variance[REFERENCE_PATHS] = all.scattered / (area * area);
     for (int h = 0; h < PATH_HALVES; h++) {
-        double w = by_paths[PATH_HALVES - 1 - h];
-        k.mean[REFERENCE_BOTH] +=
-            (w * half[h].found + (1 - w) * half[h].counted) / (PATH_HALVES * area);
-        k.variance[REFERENCE_BOTH] += (w * w * k.variance[REFERENCE_PATHS]
-                                       + (1 - w) * (1 - w) * k.variance[REFERENCE_PARTICLES])
-                                      / PATH_HALVES;
+        const double w = by_paths[PATH_HALVES - 1 - h], u = 1 - w;
+        k.mean[REFERENCE_BOTH] += (w * half[h].found + u * half[h].counted) / (PATH_HALVES * area);
+        k.variance[REFERENCE_BOTH] +=
+            (w * w * scattered[h] + u * u * spread[h]) / (PATH_HALVES * PATH_HALVES * area * area);
     }
     return k;
 }

@@ -547,6 +547,9 @@
  * they are: their variance then depends on their mean, and weights by it favour what is dark by
  * chance, by a share of the standard error that falls with the root of this: 3 % here; chosen */
 #define REFERENCE_FEW 1000
+/* of a polygon's light. Where paths would tell less than that, particles tell all: chosen, its
+ * standard error is an eighth larger then at the most; weights of rare paths are rarely right */
+#define REFERENCE_LEAST 0.25
 /* of the mean over its standard error, squared: so many paths at the least have found light, and
  * their spread is known to a tenth. Others do not judge whether two methods agree; chosen */
 #define REFERENCE_SURE 100

@@ -134,6 +134,27 @@ START_TEST(as_sure_as_it_says)
 }
 END_TEST
 
+/* A unit room of tiles x tiles tiles a wall, the first of the ceiling a lamp. */
+static void tiled_room(struct scene *scene, int tiles, double rho)
+{
+    const uint32_t wall = made_material(scene, rho, 0), lamp = made_material(scene, rho, 1);
+    const double side = 1. / tiles;
+    for (int face = 0; face < 6; face++)
+        for (int i = 0; i < tiles * tiles; i++) {
+            /* axis k goes through the wall; a x b points into the room */
+            const int k = face / 2, far = face % 2;
+            double o[3] = {0, 0, 0}, a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
+            const int u = (k + 1) % 3, v = (k + 2) % 3;
+            o[k] = far;
+            o[u] = i % tiles * side;
+            o[v] = i / tiles * side;
+            a[far ? v : u] = side;
+            b[far ? u : v] = side;
+            made_quad(scene, face == 5 && i == 0 ? lamp : wall, o[0], o[1], o[2], a[0], a[1], a[2],
+                      b[0], b[1], b[2]);
+        }
+}
+
 /* A room of TILES x TILES tiles a wall, one of them a lamp, of which few particles and few paths
  * know little each. A closed room absorbs what is emitted: whatever the noise of its faces, their
  * sum is right within what is told of it. */
@@ -142,23 +163,9 @@ START_TEST(no_bias)
     enum { TILES = 16 };
     struct scene scene;
     struct reference r;
-    made_open(&scene);
     const double rho = 0.6, side = 1. / TILES;
-    const uint32_t wall = made_material(&scene, rho, 0), lamp = made_material(&scene, rho, 1);
-    for (int face = 0; face < 6; face++)
-        for (int i = 0; i < TILES * TILES; i++) {
-            /* axis k goes through the wall; a x b points into the room */
-            const int k = face / 2, far = face % 2;
-            double o[3] = {0, 0, 0}, a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
-            const int u = (k + 1) % 3, v = (k + 2) % 3;
-            o[k] = far;
-            o[u] = i % TILES * side;
-            o[v] = i / TILES * side;
-            a[far ? v : u] = side;
-            b[far ? u : v] = side;
-            made_quad(&scene, face == 5 && i == 0 ? lamp : wall, o[0], o[1], o[2], a[0], a[1], a[2],
-                      b[0], b[1], b[2]);
-        }
+    made_open(&scene);
+    tiled_room(&scene, TILES, rho);
     double *mean = calloc(scene.input_count, sizeof *mean),
            *variance = calloc(scene.input_count, sizeof *variance);
     ck_assert(mean && variance);
@@ -185,6 +192,80 @@ START_TEST(no_bias)
     }
     free(mean);
     free(variance);
+    made_close(&scene);
+}
+END_TEST
+
+/* The same room with a wall through its middle that has a hole of one tile. Few paths from behind
+ * the wall find it, and what these know of their noise is next to nothing. Tiles there are as far
+ * from what many more particles say as they say themselves, and no farther than by particles
+ * alone. */
+START_TEST(through_a_hole)
+{
+    enum { TILES = 8, FEW = 16 };
+    const double hole[2] = {3. / TILES, 4. / TILES}, middle = 0.5;
+    struct scene scene;
+    struct reference r;
+    made_open(&scene);
+    tiled_room(&scene, TILES, 0.6);
+    const double bands[3][4] = {/* of y and z: beside the hole, and above and below it */
+                                {0, 1, 0, hole[0]},
+                                {0, 1, hole[1], 1},
+                                {0, hole[0], hole[0], hole[1]}};
+    for (int back = 0; back < 2; back++) {
+        for (int i = 0; i < 3; i++) {
+            const double *at = bands[i], wide = at[1] - at[0], high = at[3] - at[2];
+            made_quad(&scene, 0, middle, at[0], at[2], 0, back ? 0 : wide, back ? high : 0, 0,
+                      back ? wide : 0, back ? 0 : high);
+        }
+        made_quad(&scene, 0, middle, hole[1], hole[0], 0, back ? 0 : 1 - hole[1],
+                  back ? hole[1] - hole[0] : 0, 0, back ? 1 - hole[1] : 0,
+                  back ? 0 : hole[1] - hole[0]);
+    }
+    double *mean = calloc(scene.input_count, sizeof *mean),
+           *variance = calloc(scene.input_count, sizeof *variance),
+           *truth = calloc(scene.input_count, sizeof *truth),
+           *doubt = calloc(scene.input_count, sizeof *doubt);
+    ck_assert(mean && variance && truth && doubt);
+    open_reference(&r, &scene, 2);
+    trace(&r, 1 << 22, 0);
+    ck_assert_int_eq(reference_irradiance(&r, REFERENCE_PARTICLES, 0, truth, doubt), 0);
+    reference_close(&r);
+    double chi[REFERENCE_METHODS] = {0}, off[REFERENCE_METHODS] = {0}, sum[REFERENCE_METHODS] = {0},
+           told[REFERENCE_METHODS] = {0};
+    int dark = 0;
+    for (unsigned run = 1; run <= FEW; run++) {
+        open_reference(&r, &scene, 2);
+        r.tally.stream += run;
+        r.paths.stream += (uint64_t)run << 33;
+        trace(&r, 1 << 18, 1 << 14);
+        for (enum reference_method way = 0; way < REFERENCE_METHODS;
+             way = (enum reference_method)(way + 1)) {
+            ck_assert_int_eq(reference_irradiance(&r, way, 0, mean, variance), 0);
+            for (uint32_t i = 0; i < 6 * TILES * TILES; i++) {
+                const double d = mean[i] - truth[i];
+                if (!(tracer_surface(&r.tracer, i)->centre[0] > middle))
+                    continue;
+                dark += way == REFERENCE_BOTH;
+                chi[way] += d * d / (variance[i] + doubt[i]);
+                off[way] += d * d;
+                sum[way] += fabs(d);
+                told[way] += variance[i] + doubt[i];
+            }
+        }
+        reference_close(&r);
+    }
+    for (int way = 0; way < REFERENCE_METHODS; way++)
+        printf("behind a hole by method %d, %d tiles: squares over what is told %.2f, in all %.2f; "
+               "over those by particles %.2f, moduli %.3f\n",
+               way, dark, chi[way] / dark, off[way] / told[way], off[way] / off[0],
+               sum[way] / sum[0]);
+    ck_assert_double_eq_tol(chi[REFERENCE_BOTH] / dark, 1, 0.2);
+    ck_assert_double_lt(sum[REFERENCE_BOTH], 1.05 * sum[REFERENCE_PARTICLES]);
+    free(mean);
+    free(variance);
+    free(truth);
+    free(doubt);
     made_close(&scene);
 }
 END_TEST
@@ -356,6 +437,7 @@ int main(void)
     tcase_add_test(c, furnace);
     tcase_add_test(c, as_sure_as_it_says);
     tcase_add_test(c, no_bias);
+    tcase_add_test(c, through_a_hole);
     tcase_add_test(c, as_others_find);
     tcase_add_test(c, same_bits);
     tcase_add_test(c, nothing_to_find);
