@@ -288,24 +288,12 @@ static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
     return -1;
 }
 
-/* How many times the particles that have come are wanted for polygons: for their noise there
- * (*alone), or, where that is fewer, for what mending leaves. Returns 0, or -1 when out of memory.
- */
+/* mended_error_times, of what all ranks have counted. */
 static int times_wanted(struct solve *s, struct tally *tally, const struct mending_goal *goal,
                         double *times, double *alone)
 {
-    struct face_noise noise;
-    double left;
     tally_add_faces(tally, s->problem.options.ranks);
-    if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0)
-        return -1;
-    *times = *alone = noise.all * noise.all / (goal->noise * goal->noise);
-    if (!(*times > 1 && goal->left > 0 && tally->rays >= goal->plain))
-        return 0;
-    if (mended_error_find(s, tally, &noise, &left) < 0)
-        return -1;
-    *times = fmin(*times, mended_error_wanted(left, noise.all, goal->left));
-    return 0;
+    return mended_error_times(s, tally, goal, times, alone);
 }
 
 int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, const char **cause)
@@ -423,7 +411,7 @@ static int look(struct solve *s, const struct tracer *t, struct tally *tally,
     if (tally->rays == 0)
         return 0;
     tally_add_faces(tally, t->ranks);
-    s->by_paths = path_mending_trace(paths, s, t, tally, goal->noise, goal->most, &watch);
+    s->by_paths = path_mending_trace(paths, s, t, tally, goal, &watch);
     if (s->by_paths == 0) { /* what they saw is forgotten, but for what it took */
         const uint64_t spent = paths->paths.rays;
         path_tally_close(paths);

@@ -67,3 +67,19 @@ double mended_error_wanted(double error, double noise, double goal)
         return 0;
     return noise * noise / (goal * goal) - noise * noise / (error * error) + 1;
 }
+
+int mended_error_times(const struct solve *s, const struct tally *tally,
+                       const struct mending_goal *goal, double *times, double *alone)
+{
+    struct face_noise noise;
+    double left;
+    if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0)
+        return -1;
+    *times = *alone = noise.all * noise.all / (goal->noise * goal->noise);
+    if (!(*times > 1 && goal->left > 0 && tally->rays >= goal->plain))
+        return 0;
+    if (mended_error_find(s, tally, &noise, &left) < 0)
+        return -1;
+    *times = fmin(*times, mended_error_wanted(left, noise.all, goal->left));
+    return 0;
+}

@@ -4,7 +4,7 @@
 #define MENDED_ERROR_H
 
 #include "engine/face_error.h"
-#include "engine/solve.h"
+#include "engine/measured_error.h"
 
 /* The L1 error of polygons, as a share of the reflected light, once the particles of the tally mend
  * the links; noise: what particles alone would leave. The solution stays as it is. Returns 0, or -1
@@ -14,5 +14,11 @@ int mended_error_find(const struct solve *s, const struct tally *tally,
 
 /* How many times the particles bring that error to the goal. */
 double mended_error_wanted(double error, double noise, double goal);
+
+/* How many times the particles of the tally, or its paths, are wanted for polygons: for their noise
+ * there (*alone), or, where that is fewer, for what mending leaves. Returns 0, or -1 on all ranks
+ * when any is out of memory. */
+int mended_error_times(const struct solve *s, const struct tally *tally,
+                       const struct mending_goal *goal, double *times, double *alone);
 
 #endif

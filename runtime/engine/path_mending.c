@@ -12,20 +12,12 @@
  * where it is farther off than the noise of both, particles go on. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include "engine/face_error.h"
+#include "engine/mended_error.h"
 #include "engine/path_mending.h"
 #include "engine/reflected_light.h"
 #include "kernel/constants.h"
 
 enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
-
-static double noise_of(const struct solve *s, const struct tally *tally)
-{
-    struct face_noise noise;
-    const int failed =
-        face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0;
-    return failed ? -1 : noise.all;
-}
 
 /* Do both see the same light? */
 static int agree(const struct solve *s, const struct tally *particles, const struct tally *paths)
@@ -45,28 +37,30 @@ static uint32_t faces_that_reflect(const struct path_tally *y)
 }
 
 int path_mending_trace(struct path_tally *y, const struct solve *s, const struct tracer *t,
-                       const struct tally *tally, double noise, uint64_t most,
+                       const struct tally *tally, const struct mending_goal *goal,
                        const struct watch *watch)
 {
-    double by_particles = noise_of(s, tally), by_paths, paths = 1;
-    if (by_particles < 0 || path_tally_open(y, t, path_mending_stream(0)) < 0)
+    const double most = (double)goal->most;
+    double times, alone, paths = 1;
+    if (mended_error_times(s, tally, goal, &times, &alone) < 0
+        || path_tally_open(y, t, path_mending_stream(0)) < 0)
         return -1;
-    double cost = by_particles * by_particles * (double)tally->rays,
-           look = (double)PATH_BLOCK * RAYS_OF_PATH * faces_that_reflect(y);
-    if (!(fmin(cost / (noise * noise), (double)most) > PATHS_LOOK * look))
+    const double cost = alone * (double)tally->rays,
+                 look = (double)PATH_BLOCK * RAYS_OF_PATH * faces_that_reflect(y);
+    if (!(fmin(cost, most) > PATHS_LOOK * look))
         return 0;
     for (int first = 1;; first = 0) {
         if (path_tally_trace(y, t, s->state.irradiance, (uint64_t)paths, watch) < 0
-            || (by_paths = noise_of(s, &y->tally)) < 0)
+            || mended_error_times(s, &y->tally, goal, &times, &alone) < 0)
             return -1;
-        double rays = (double)y->tally.rays, ratio = by_paths / noise;
+        const double rays = (double)y->tally.rays;
         if (!agree(s, tally, &y->tally))
             return 0;
-        if (first && !(PATHS_CHEAPER * by_paths * by_paths * rays < cost))
+        if (first && !(PATHS_CHEAPER * alone * rays < cost))
             return 0;
-        if (!(ratio > 1) || rays >= 0.99 * (double)most)
+        if (!(times > 1) || rays >= 0.99 * most)
             return 1;
-        paths = (double)y->tally.particles * REPLICATES
-                * fmin(fmin(1.02 * ratio * ratio, 4), (double)most / rays);
+        /* they double twice at the most before that is asked again */
+        paths = (double)y->tally.particles * REPLICATES * fmin(fmin(1.02 * times, 4), most / rays);
     }
 }

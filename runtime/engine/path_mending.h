@@ -3,15 +3,15 @@
 #ifndef PATH_MENDING_H
 #define PATH_MENDING_H
 
-#include "engine/solve.h"
+#include "engine/measured_error.h"
 #include "particles/path_tally.h"
 
-/* Where a first look by particles (tally) foretells many rays until their noise in the L1 error of
- * polygons is `noise` of the reflected light, and paths would take far fewer: paths, until theirs
- * is that, or they have cast `most` rays. Returns 1: y has been traced, the caller's to close; 0:
- * particles are to go on; -1: out of memory or stopped. */
+/* Where a first look by particles (tally) foretells many rays until the error of polygons is what
+ * the goal allows, and paths would take far fewer: paths, until theirs is that, or they have cast
+ * the most rays. Returns 1: y has been traced, the caller's to close; 0: particles are to go on;
+ * -1: out of memory or stopped. */
 int path_mending_trace(struct path_tally *y, const struct solve *s, const struct tracer *t,
-                       const struct tally *tally, double noise, uint64_t most,
+                       const struct tally *tally, const struct mending_goal *goal,
                        const struct watch *watch);
 
 /* Random numbers of paths: those that mend a solution and those that measure it have none in
