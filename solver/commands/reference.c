@@ -278,13 +278,15 @@ static int write_table(const struct run *r)
 
 /* Do the two differ by more than chance lets them? The whole light by four standard errors: once in
  * 10,000 runs. Faces by half as much again as expected, and four standard errors of a chi-square of
- * as many faces, whose bands go together: replicates that are few make it a little more than 1. */
+ * as many faces, whose bands go together: replicates that are few make it a little more than 1. Of
+ * few faces one on which a rare path lit says nothing. */
 static int differ(const struct run *r)
 {
+    enum { FEW = 10 };
     const struct RadReferenceReport *p = &r->report;
     double faces = (double)p->compared / r->scene->report.bands;
     return fabs(p->difference) > 4 * p->deviation
-           || (faces > 0 && p->chi_square > 1.5 + 4 * sqrt(2 / faces));
+           || (faces >= FEW && p->chi_square > 1.5 + 4 * sqrt(2 / faces));
 }
 
 static void print_summary(const struct run *r)
