@@ -15,6 +15,7 @@
 
 #include "hierarchy/crossing.h"
 #include "hierarchy/cut_faces.h"
+#include "hierarchy/long_faces.h"
 #include "hierarchy/overlaps.h"
 #include "hierarchy/polygon.h"
 #include "hierarchy/shells.h"
@@ -282,7 +283,8 @@ static uint32_t bands(const struct builder *b)
     return RAD_GREY;
 }
 
-/* Take off faces what is covered, then cut them where others stand. Returns 0 or -1. */
+/* Take off faces what is covered, then cut them where others stand, and long ones across. Returns 0
+ * or -1. */
 static int part_faces(struct scene *scene, int threads)
 {
     struct bvh tree;
@@ -297,7 +299,7 @@ static int part_faces(struct scene *scene, int threads)
     }
     int result = changed < 0 || scene_cut(scene, &tree, threads) < 0 ? -1 : 0;
     bvh_free(&tree);
-    return result;
+    return result < 0 ? -1 : scene_shorten(scene);
 }
 
 /* The longest side of the box of what has not been dropped (m). */

@@ -363,6 +363,14 @@
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
 #define PLACE_SHARE 1e-4
+/* of the scene's area. Smaller faces are not cut for being long: those that somebody looks at, as
+ * DIM_LARGE has it; */
+#define LONG_AREA 0.01
+/* nor into parts below that: sixteen places */
+#define LONG_PART (16 * PLACE_SHARE)
+/* lengths over width. What is shorter is not long: chosen, cells of a corridor, whose walls are
+ * four, are as near as those of rooms */
+#define LONG_RATIO 6.0
 /* of the scene's area. Larger leaves that a solid covers in part are quartered: chosen, an eighth
  * of a place's side. Cells of maze_8, whose walls are thinner than two places, were off by 3.5 %
  * with leaves as large as links need them, by 3.2 with twice that side, and by 3.1 with this or
