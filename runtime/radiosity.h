@@ -165,6 +165,9 @@ struct RadPolygons {
     int as_given; /* 1: quads are taken for flat and convex, and no face is cut where others stand
                      in it; for studies of what comes of it */
     enum RadTurned turned;
+    /* 1: faces of a hundredth of the area or more that are six times as long as wide are cut
+     * across, as solutions want them; view factors need it not */
+    int cut_long;
 };
 
 RAD_API RadScene radNewScene(RadDevice device);
@@ -201,7 +204,7 @@ struct RadSceneReport {
     uint32_t dropped;  /* of them, without area */
     /* of them, whose outline crosses itself; the first */
     uint32_t crossing, crossing_first;
-    uint32_t cut, parts; /* faces cut where others stand in them, and into how many */
+    uint32_t cut, parts; /* faces cut where others stand, or as they are long; into so many */
     uint32_t overlaps;   /* polygons that lay on others in one plane and lost what was covered */
     double overlap_area; /* that they lost, of all their sides (m2) */
     struct RadOverlap {

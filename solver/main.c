@@ -39,7 +39,9 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
 /* Run the command, on the scene where it takes one. Returns the exit status. */
 static int run(const struct options *o)
 {
-    const struct scene_options how = {o->two_sided, o->quiet};
+    const struct scene_options how = {.two_sided = o->two_sided,
+                                      .quiet = o->quiet,
+                                      .long_stay = o->command == COMMAND_VIEWFACTORS};
     if (!o->scene || o->scenes || o->command == COMMAND_ERROR)
         return commands[o->command](o, NULL);
     const enum RadTurned turned = o->flip_closed                      ? RAD_TURNED_FLIP

@@ -388,6 +388,14 @@
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
 #define REFINER_PLACE_SHARE 1e-4
+/* of the scene's area. Smaller faces are not cut for being long: those that somebody looks at, as
+ * DIM_LARGE has it; */
+#define REFINER_LONG_AREA 0.01
+/* nor into parts below that: sixteen places */
+#define REFINER_LONG_PART (16 * REFINER_PLACE_SHARE)
+/* lengths over width. What is shorter is not long: chosen, cells of a corridor, whose walls are
+ * four, are as near as those of rooms */
+#define REFINER_LONG_RATIO 6.0
 /* of the scene's area. Larger leaves that a solid covers in part are quartered: chosen, an eighth
  * of a place's side. Cells of maze_8, whose walls are thinner than two places, were off by 3.5 %
  * with leaves as large as links need them, by 3.2 with twice that side, and by 3.1 with this or
@@ -572,6 +580,9 @@
  * they are: their variance then depends on their mean, and weights by it favour what is dark by
  * chance, by a share of the standard error that falls with the root of this: 3 % here; chosen */
 #define REFINER_REFERENCE_FEW 1000
+/* of a polygon's light. Where paths would tell less than that, particles tell all: chosen, its
+ * standard error is an eighth larger then at the most; weights of rare paths are rarely right */
+#define REFINER_REFERENCE_LEAST 0.25
 /* of the mean over its standard error, squared: so many paths at the least have found light, and
  * their spread is known to a tenth. Others do not judge whether two methods agree; chosen */
 #define REFINER_REFERENCE_SURE 100

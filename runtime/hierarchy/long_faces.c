@@ -84,6 +84,8 @@ int scene_shorten(struct scene *scene)
         const struct face *f = &scene->faces[i];
         const int pair = scene_is_pair(scene, i);
         const uint32_t parts = parts_of(f, whole, &first);
+        scene->cut += parts > 1;
+        scene->parts += parts > 1 ? parts : 0;
         for (uint32_t j = 0; j < parts; j++) {
             struct face *part = &faces[count++];
             if (parts > 1)

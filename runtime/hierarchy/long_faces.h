@@ -5,8 +5,9 @@
 
 #include "hierarchy/scene.h"
 
-/* Cut the scene's long faces in place; parts share their face's polygon. Materials and areas of
- * polygons stay. Returns 0, or -1 when out of memory; then nothing has changed. */
+/* Cut the scene's long faces in place, counted as by scene_cut; parts share their face's polygon.
+ * Materials and areas of polygons stay. Returns 0, or -1 when out of memory; then nothing has
+ * changed. */
 int scene_shorten(struct scene *scene);
 
 #endif

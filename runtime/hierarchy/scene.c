@@ -283,9 +283,9 @@ static uint32_t bands(const struct builder *b)
     return RAD_GREY;
 }
 
-/* Take off faces what is covered, then cut them where others stand, and long ones across. Returns 0
- * or -1. */
-static int part_faces(struct scene *scene, int threads)
+/* Take off faces what is covered, then cut them where others stand, and if asked for long ones
+ * across. Returns 0 or -1. */
+static int part_faces(struct scene *scene, int cut_long, int threads)
 {
     struct bvh tree;
     threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : thread_pool_processors();
@@ -299,7 +299,7 @@ static int part_faces(struct scene *scene, int threads)
     }
     int result = changed < 0 || scene_cut(scene, &tree, threads) < 0 ? -1 : 0;
     bvh_free(&tree);
-    return result < 0 ? -1 : scene_shorten(scene);
+    return result == 0 && cut_long ? scene_shorten(scene) : result;
 }
 
 /* The longest side of the box of what has not been dropped (m). */
@@ -380,7 +380,9 @@ static int build(struct builder *b, int threads)
     struct face *fitting = realloc(scene->faces, scene->face_count * sizeof *fitting);
     scene->faces = fitting ? fitting : scene->faces;
     scene->bands = bands(b);
-    return !b->polygons->as_given && part_faces(scene, threads) < 0 ? out_of_memory(b->error) : 0;
+    return !b->polygons->as_given && part_faces(scene, b->polygons->cut_long, threads) < 0
+               ? out_of_memory(b->error)
+               : 0;
 }
 
 int scene_build(struct scene *scene, const struct RadPolygons *polygons,

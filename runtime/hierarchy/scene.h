@@ -28,7 +28,8 @@ struct scene {
     uint32_t dropped; /* polygons without area */
     /* polygons that cross themselves (crossing.h), and the first of them */
     uint32_t crossing, crossing_first;
-    /* faces cut where others stand in them (cut_faces.h), far sides not counted */
+    /* faces cut where others stand in them (cut_faces.h) or across (long_faces.h), far sides not
+     * counted */
     uint32_t cut;
     uint32_t parts; /* into so many, which share their face's polygon */
     /* polygons that lay on others and have lost what was covered (overlaps.h); the first of them */

@@ -288,8 +288,8 @@ void summary_print(const struct summary *s)
     printf("scene     %s: %u faces, %.4g m2, %s\n", s->options->scene, scene->polygons, scene->area,
            r->bands == 1 ? "grey" : "three bands");
     if (scene->cut)
-        printf("cut       %u faces, into %u, where others stand in them\n", scene->cut,
-               scene->parts);
+        printf("cut       %u faces, into %u, where others stand in them or as they are long\n",
+               scene->cut, scene->parts);
     printf("oracle    %s (%s release)\n", oracle.name, oracle.release);
     for (int i = 0; i < s->options->replacement_count; i++)
         printf("replaced  %s\n", s->options->replacements[i]);

@@ -98,7 +98,7 @@ static int write_graph(const struct work *w)
 static int open_scenes(struct work *w)
 {
     const struct options *o = w->options;
-    const struct scene_options how = {o->two_sided, o->quiet};
+    const struct scene_options how = {.two_sided = o->two_sided, .quiet = o->quiet};
     struct tuner *t = &w->tuner;
     t->scenes = calloc((size_t)o->scene_count, sizeof *t->scenes);
     if (!t->scenes)

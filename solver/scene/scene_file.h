@@ -47,6 +47,7 @@ struct scene_file {
 struct scene_options {
     int two_sided; /* treat every face as two-sided */
     int quiet;     /* no warnings on stderr */
+    int long_stay; /* long faces are not cut across (RadPolygons.cut_long) */
 };
 
 /* Read `path`: OBJ, PLY, STL, OFF and meshes (read_meshes.h) by our readers, any other format by

@@ -179,7 +179,7 @@ static int measure(const struct options *o, RadSolution solution, struct found *
 
 static int find(const struct options *o, const char *path, struct found *f)
 {
-    const struct scene_options how = {o->two_sided, o->quiet};
+    const struct scene_options how = {.two_sided = o->two_sided, .quiet = o->quiet};
     const struct RadSolveOptions solve = solve_options(o);
     struct open_scene scene;
     struct solved s;

@@ -66,6 +66,8 @@ START_TEST(test_tunnel)
                                 1e-12 * area[i]);
         ck_assert_int_eq(parts[i] > 1, i != 4 && i != 5 && i != 6); /* ends and the strip stay */
     }
+    ck_assert_uint_eq(s.cut, 4);
+    ck_assert_uint_eq(s.parts, s.face_count - 3);
     printf("a tunnel of 300 m by 8 and 5: %u faces\n", s.face_count);
     made_close(&s);
     made_close(&twice);
