@@ -104,7 +104,7 @@ static struct errors errors(const double *solved, const double *sum, const doubl
 START_TEST(test_accuracy)
 {
     const struct accuracy *want = &accuracies[_i];
-    const struct scene_options how = {0, 1};
+    const struct scene_options how = {.quiet = 1};
     if (getenv("ACCURACY_ONLY") && strcmp(getenv("ACCURACY_ONLY"), want->scene) != 0)
         return;
     fprintf(stderr, "accuracy: %s ...\n", want->scene);

@@ -117,7 +117,7 @@ START_TEST(test_enclosure)
     static const char *const shipped[] = {"td", "room", "cornell", "maze_8", "furnace"};
     enum { SHIPPED = sizeof shipped / sizeof *shipped, SLIT = SHIPPED, WINDOW, POCKET, CASES };
     for (int i = 0; i < CASES; i++) {
-        struct scene_options how = {0, 1};
+        struct scene_options how = {.quiet = 1};
         struct solve_options options = quick(2);
         struct scene scene;
         if (i == SLIT || i == POCKET)

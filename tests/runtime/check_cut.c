@@ -364,7 +364,7 @@ START_TEST(test_scale)
 {
     static const char *const scenes[] = {"room", "maze_8", "td"};
     static const int powers[] = {-20, -3, 7, 30};
-    struct scene_options how = {0, 1};
+    struct scene_options how = {.quiet = 1};
     char path[64];
     snprintf(path, sizeof path, "examples/scenes/%s.obj", scenes[_i]);
     struct scene s;
@@ -483,7 +483,7 @@ START_TEST(test_files)
         {"furnace", 0, 0}, {"furnace_4", 0, 0}, {"cornell", 0, 0},
         {"room", 9, 44},   {"maze_8", 2, 143},
     };
-    struct scene_options how = {0, 1};
+    struct scene_options how = {.quiet = 1};
     char path[64];
     snprintf(path, sizeof path, "examples/scenes/%s.obj", known[_i].name);
     struct scene s;

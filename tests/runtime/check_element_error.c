@@ -226,7 +226,7 @@ END_TEST
 START_TEST(test_panels)
 {
     const struct solve_options options = {.tolerance = 1e-3, .iterations = 1000, .threads = 2};
-    const struct scene_options how = {0, 1};
+    const struct scene_options how = {.quiet = 1};
     struct right x;
     struct measured_error m;
     double bright = 0, dark = 0, all = 0;

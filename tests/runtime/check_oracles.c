@@ -253,7 +253,7 @@ START_TEST(test_promise)
         {"furnace", 0.3}, {"cornell", 0.05}, {"maze_8", 60}, {"room", 16}, {"furnace_4", 0.4},
     };
     char setting[64], path[128], *settings[3] = {setting, (char *)"share=0", NULL};
-    struct scene_options how = {0, 1};
+    struct scene_options how = {.quiet = 1};
     snprintf(setting, sizeof setting, "tolerance_watts=%g", promise[_i].watts);
     snprintf(path, sizeof path, "examples/scenes/%s.obj", promise[_i].scene);
     struct scene scene;

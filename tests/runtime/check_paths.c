@@ -282,14 +282,14 @@ START_TEST(test_particles)
     ck_assert_double_lt(chi, 1.7);
     traced_close(&x);
     ck_assert_int_eq(
-        scene_read(&x.scene, "examples/scenes/cornell.obj", &(struct scene_options){0, 0}), 0);
+        scene_read(&x.scene, "examples/scenes/cornell.obj", &(struct scene_options){0}), 0);
     traced_open(&x, 1);
     chi = disagreement(&x, 8000, 4000);
     ck_assert_double_lt(chi, 1.7);
     traced_close(&x);
     for (int i = 0; i < 2 && thorough(); i++) {
         static const char *const paths[] = {"examples/scenes/room.obj", "tests/runtime/panels.obj"};
-        ck_assert_int_eq(scene_read(&x.scene, paths[i], &(struct scene_options){0, 0}), 0);
+        ck_assert_int_eq(scene_read(&x.scene, paths[i], &(struct scene_options){0}), 0);
         traced_open(&x, 1);
         chi = disagreement(&x, 100000, 40000);
         ck_assert_double_lt(chi, 1.3);

@@ -592,7 +592,7 @@ START_TEST(test_panels)
                                      .1713, .1722, .1098,  .0622, .1387, .1071, .0950, 0,
                                      0,     0,     .00029, .0903, .1071, .0995, .0514};
     struct solve_options options = {.iterations = 100000, .threads = 2, .linear = 1};
-    struct scene_options how = {0, 1};
+    struct scene_options how = {.quiet = 1};
     double power[23] = {0}, area[23] = {0}, wrong = 0, all = 0;
     struct scene scene;
     struct solve s;

@@ -16,7 +16,7 @@ enum { RUNS = 40 };
 
 static void read_file(struct scene *scene, const char *path)
 {
-    const struct scene_options how = {0, 1};
+    const struct scene_options how = {.quiet = 1};
     ck_assert_int_eq(scene_read(scene, path, &how), 0);
 }
 

@@ -197,7 +197,7 @@ static void solve_asking(const struct run *run, const struct refiner *asking)
 {
     char path[128];
     const char *cause = "";
-    const struct scene_options as_written = {0, 1};
+    const struct scene_options as_written = {.quiet = 1};
     struct scene scene;
     snprintf(path, sizeof path, "examples/scenes/%s.obj", run->scene);
     ck_assert_int_eq(scene_read(&scene, path, &as_written), 0);

@@ -173,7 +173,7 @@ static inline void open_world(struct world *w, int kind, uint64_t *seed, double 
     if (kind < LOADED) {
         make(&w->scene, kind, seed);
     } else {
-        struct scene_options quiet = {0, 1};
+        struct scene_options quiet = {.quiet = 1};
         char path[64];
         snprintf(path, sizeof path, "examples/scenes/%s.obj", kinds[kind]);
         ck_assert_int_eq(scene_read(&w->scene, path, &quiet), 0);

@@ -88,7 +88,7 @@ int main(int words, char **word)
         fputs("usage: by_chance SCENE particles|paths COUNT FACES.csv\n", stderr);
         return 2;
     }
-    const struct scene_options how = {0, 1};
+    const struct scene_options how = {.quiet = 1};
     struct open_scene scene;
     if (open_scene(&scene, word[1], &how, 1) < 0)
         return 1;

@@ -318,7 +318,7 @@ static int run(const char *oracle, const char *path, char *const *settings, int 
         enum release release;
     } opened[] = {
         {HAND, RELEASE_HAND}, {FLAT, RELEASE_FLAT}, {WAVE, RELEASE_WAVE}, {GOING, RELEASE_DAG}};
-    const struct scene_options as_written = {0, 1};
+    const struct scene_options as_written = {.quiet = 1};
     struct scene scene;
     const char *slash = strrchr(path, '/');
     struct RTCRay16 *packets = bench.packets, *fresh = bench.fresh;

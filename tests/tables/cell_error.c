@@ -313,7 +313,7 @@ int main(int count, char **word)
               stderr);
         return 2;
     }
-    const struct scene_options how = {0, 1};
+    const struct scene_options how = {.quiet = 1};
     struct inputs in = {0};
     if (scene_file_read(&in.file, word[2], &how) < 0)
         return 1;
