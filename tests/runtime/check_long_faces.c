@@ -28,11 +28,11 @@ START_TEST(test_tunnel)
     made_open(&s);
     made_material(&s, 0.5, 0);
     made_room(&s, walls, 300, 8, 5);
-    made_quad(&s, 0, 10, 4, 4.9, 0, 0.1, 0, 60, 0, 0); /* long, and small */
+    made_quad(&s, 0, 10, 4, 4.9, 0, 1, 0, 60, 0, 0); /* long, and small */
     made_open(&twice);
     made_material(&twice, 0.5, 0);
     made_room(&twice, walls, 300, 8, 5);
-    made_quad(&twice, 0, 10, 4, 4.9, 0, 0.1, 0, 60, 0, 0);
+    made_quad(&twice, 0, 10, 4, 4.9, 0, 1, 0, 60, 0, 0);
     made_scale(&twice, 1024);
     struct face given[7];
     memcpy(given, s.faces, sizeof given);
