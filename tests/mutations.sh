@@ -103,12 +103,12 @@ counted by nobody, surely nothing | runtime/engine/mend_clusters.c | s/known \* 
 the worst of all thresholds | runtime/engine/mend_clusters.c | s/r->left\[i\] < r->left\[best\]/r->left[i] > r->left[best]/ | runtime/check_mended_error
 thresholds that noise chooses | runtime/engine/mend_clusters.c | s,? 4 \* h / children \* note->replicates,? 0 * h / children, | runtime/check_mended_error
 large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + (sums/0 * noise->large + (sums/ | runtime/check_mended_error
-far sides the other way round | runtime/hierarchy/long_faces.c | s/part->vertex\[3 - c\]/part->vertex[c]/ | runtime/check_long_faces
-short sides are cut | runtime/hierarchy/long_faces.c | s/a >= b ? 0 : 1/a >= b ? 1 : 0/ | runtime/check_long_faces
+far sides the other way round | runtime/hierarchy/long_faces.c | s/back ? 3 - c : c/c/ | runtime/check_long_faces
+short sides are cut | runtime/hierarchy/long_faces.c | s/sides\[0\] >= sides\[1\] ? 0 : 1/sides[0] >= sides[1] ? 1 : 0/ | runtime/check_long_faces
 all long faces are cut | runtime/hierarchy/long_faces.c | s/LONG_AREA \* whole/0 * whole/ | runtime/check_long_faces
 paths weigh themselves | runtime/engine/reference.c | s/fmax(half\[h\].scattered, alike)/half[h].scattered/ | runtime/check_reference
 paths know their scatter | runtime/engine/reference.c | s/(half\[h\].scattered + alike) \/ 2/half[h].scattered/ | runtime/check_reference
-weak paths tell, too | runtime/engine/reference.c | s/by_paths\[h\] < REFERENCE_LEAST/by_paths[h] < 0 * REFERENCE_LEAST/ | runtime/check_reference
+weak paths tell, too | runtime/engine/reference.c | s/w < REFERENCE_LEAST/w < 0 * REFERENCE_LEAST/ | runtime/check_reference
 paths go on to their noise | runtime/engine/mended_error.c | s/goal->left > 0 \&\& tally/goal->left > 0 \&\& !tally->by_paths \&\& tally/ | runtime/check_path_mending
 no link spares a ray | runtime/engine/measured_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error
 a class that none has met is sure | runtime/engine/face_error.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error

@@ -393,8 +393,7 @@
 #define REFINER_LONG_AREA 0.01
 /* nor into parts below that: sixteen places */
 #define REFINER_LONG_PART (16 * REFINER_PLACE_SHARE)
-/* lengths over width. What is shorter is not long: chosen, cells of a corridor, whose walls are
- * four, are as near as those of rooms */
+/* lengths over width. What is shorter is not long: chosen, more than walls of rooms have */
 #define REFINER_LONG_RATIO 6.0
 /* of the scene's area. Larger leaves that a solid covers in part are quartered: chosen, an eighth
  * of a place's side. Cells of maze_8, whose walls are thinner than two places, were off by 3.5 %
@@ -581,7 +580,7 @@
  * chance, by a share of the standard error that falls with the root of this: 3 % here; chosen */
 #define REFINER_REFERENCE_FEW 1000
 /* of a polygon's light. Where paths would tell less than that, particles tell all: chosen, its
- * standard error is an eighth larger then at the most; weights of rare paths are rarely right */
+ * standard error is a sixth larger then at the most; weights of rare paths are rarely right */
 #define REFINER_REFERENCE_LEAST 0.25
 /* of the mean over its standard error, squared: so many paths at the least have found light, and
  * their spread is known to a tenth. Others do not judge whether two methods agree; chosen */

@@ -211,10 +211,10 @@ static struct known weigh(const struct reference *r, const struct means *m, size
         spread[h] = spread_of(r, &half[h], REPLICATES / PATH_HALVES, band);
         scattered[h] = (half[h].scattered + alike) / 2;
         by_paths[h] = paths;
-        if (both && spread[h] > 0)
-            by_paths[h] = spread[h] / (spread[h] + fmax(half[h].scattered, alike));
-        if (both && by_paths[h] < REFERENCE_LEAST)
-            by_paths[h] = 0;
+        if (both && spread[h] > 0) {
+            const double w = spread[h] / (spread[h] + fmax(half[h].scattered, alike));
+            by_paths[h] = w < REFERENCE_LEAST ? 0 : w;
+        }
         all.counted += half[h].counted / PATH_HALVES;
         all.square += half[h].square / PATH_HALVES;
         all.found += half[h].found / PATH_HALVES;

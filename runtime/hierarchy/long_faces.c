@@ -21,11 +21,17 @@
 #include "hierarchy/polygon.h"
 #include "kernel/constants.h"
 
-static double side(const struct face *f, int from, int to)
+/* The mean length of the long sides, which begin at corners *first, 0 or 1, and *first + 2. */
+static double long_side(const struct face *f, int *first)
 {
-    double d[3];
-    sub3(d, f->vertex[to], f->vertex[from]);
-    return length3(d);
+    double sides[2] = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        double d[3];
+        sub3(d, f->vertex[(i + 1) % 4], f->vertex[i]);
+        sides[i % 2] += length3(d) / 2;
+    }
+    *first = sides[0] >= sides[1] ? 0 : 1;
+    return sides[*first];
 }
 
 static double area_of(const struct face *f)
@@ -35,17 +41,16 @@ static double area_of(const struct face *f)
     return polygon_normal(vertex, f->vertices, n);
 }
 
-/* Into how many parts; *first: the corner that a long side begins at, 0 or 1. */
-static uint32_t parts_of(const struct face *f, double whole, int *first)
+/* Into how many parts, of a scene of so large an area in all. */
+static uint32_t parts_of(const struct face *f, double whole)
 {
-    const double area = area_of(f), a = side(f, 0, 1) + side(f, 2, 3),
-                 b = side(f, 1, 2) + side(f, 3, 0);
+    const double area = area_of(f);
     if (f->vertices != 4 || !(area > LONG_AREA * whole))
         return 1;
-    *first = a >= b ? 0 : 1;
-    /* long over mean width, and its half */
-    const double ratio = fmax(a, b) * fmax(a, b) / (4 * area), most = area / (LONG_PART * whole);
-    return ratio < LONG_RATIO ? 1 : (uint32_t)fmax(1, fmin(0.5 * ratio, most));
+    int first;
+    const double length = long_side(f, &first), ratio = length * length / area;
+    return ratio < LONG_RATIO ? 1
+                              : (uint32_t)fmax(1, fmin(0.5 * ratio, area / (LONG_PART * whole)));
 }
 
 /* The point i / n of the way from a to b. */
@@ -55,51 +60,46 @@ static void on_side(double p[3], const double a[3], const double b[3], uint32_t 
         p[k] = i == n ? b[k] : a[k] + (b[k] - a[k]) * ((double)i / n);
 }
 
-static void part_of(const struct face *f, int first, uint32_t i, uint32_t n, struct face *part)
+/* Part i of n, or of its far side, which stands behind f. */
+static void part_of(const struct face *f, uint32_t i, uint32_t n, int back, struct face *part)
 {
-    const int at[4] = {first, first + 1, (first + 2) % 4, (first + 3) % 4};
-    *part = *f;
-    on_side(part->vertex[0], f->vertex[at[0]], f->vertex[at[1]], i, n);
-    on_side(part->vertex[1], f->vertex[at[0]], f->vertex[at[1]], i + 1, n);
-    on_side(part->vertex[2], f->vertex[at[3]], f->vertex[at[2]], i + 1, n);
-    on_side(part->vertex[3], f->vertex[at[3]], f->vertex[at[2]], i, n);
+    *part = f[back];
+    if (n == 1)
+        return;
+    int first;
+    (void)long_side(f, &first);
+    /* corners 0 and 1 are on the side that begins at `first`, 2 and 3 on the one across */
+    for (uint32_t c = 0; c < 4; c++) {
+        const int from = c < 2 ? first : (first + 3) % 4, to = c < 2 ? first + 1 : first + 2;
+        on_side(part->vertex[back ? 3 - c : c], f->vertex[from], f->vertex[to % 4],
+                i + (c == 1 || c == 2), n);
+    }
 }
 
 int scene_shorten(struct scene *scene)
 {
     double whole = 0;
     size_t most = 0;
-    int first = 0;
     for (uint32_t i = 0; i < scene->face_count; i++)
         whole += area_of(&scene->faces[i]);
-    for (uint32_t i = 0; i < scene->face_count; i++)
-        most += parts_of(&scene->faces[i], whole, &first);
+    for (uint32_t i = 0, sides; i < scene->face_count; i += sides) {
+        sides = 1 + (uint32_t)scene_is_pair(scene, i);
+        most += (size_t)sides * parts_of(&scene->faces[i], whole);
+    }
     if (most == scene->face_count)
         return 0;
     struct face *faces = most <= UINT32_MAX ? malloc(most * sizeof *faces) : NULL;
     if (!faces)
         return -1;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->face_count; i++) {
-        const struct face *f = &scene->faces[i];
-        const int pair = scene_is_pair(scene, i);
-        const uint32_t parts = parts_of(f, whole, &first);
+    for (uint32_t i = 0, sides; i < scene->face_count; i += sides) {
+        const uint32_t parts = parts_of(&scene->faces[i], whole);
+        sides = 1 + (uint32_t)scene_is_pair(scene, i);
         scene->cut += parts > 1;
         scene->parts += parts > 1 ? parts : 0;
-        for (uint32_t j = 0; j < parts; j++) {
-            struct face *part = &faces[count++];
-            if (parts > 1)
-                part_of(f, first, j, parts, part);
-            else
-                *part = *f;
-            if (pair) {
-                struct face *back = &faces[count++];
-                *back = f[1];
-                for (int c = 0; c < 4 && parts > 1; c++)
-                    memcpy(back->vertex[c], part->vertex[3 - c], sizeof back->vertex[c]);
-            }
-        }
-        i += (uint32_t)pair;
+        for (uint32_t j = 0; j < parts; j++)
+            for (int back = 0; back < (int)sides; back++)
+                part_of(&scene->faces[i], j, parts, back, &faces[count++]);
     }
     free(scene->faces);
     scene->faces = faces;

@@ -69,7 +69,6 @@ END_TEST
 START_TEST(test_left)
 {
     enum { TILES = 12, FACES = 6 * TILES * TILES };
-    const double side = 1. / TILES, o = 50;
     const uint32_t sky[6] = {0, 0, 0, 0, 0, 0};
     double rays[2];
     for (int looked_at = 0; looked_at < 2; looked_at++) {
@@ -82,17 +81,8 @@ START_TEST(test_left)
         made_material(&scene, 0, 1);
         made_material(&scene, 0.6, 0);
         made_room(&scene, sky, 100, 100, 100);
-        for (int i = 0; i < FACES; i++) {
-            /* axis k goes through the face; a x b points out */
-            const int k = i % 6 / 2, far = i % 2, u = (k + 1) % 3, v = (k + 2) % 3;
-            double at[3] = {o, o, o}, a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
-            at[k] += far;
-            at[u] += i / 6 % TILES * side;
-            at[v] += i / 6 / TILES * side;
-            a[far ? u : v] = side;
-            b[far ? v : u] = side;
-            made_quad(&scene, 1, at[0], at[1], at[2], a[0], a[1], a[2], b[0], b[1], b[2]);
-        }
+        for (int i = 0; i < FACES; i++)
+            made_tile(&scene, 1, 50, i % 6, i / 6, TILES, 0);
         solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(2));
         for (uint32_t e = 0; e < s.hierarchy.count; e++) {
             const uint32_t f = s.hierarchy.elements[e].face;

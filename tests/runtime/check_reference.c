@@ -138,21 +138,9 @@ END_TEST
 static void tiled_room(struct scene *scene, int tiles, double rho)
 {
     const uint32_t wall = made_material(scene, rho, 0), lamp = made_material(scene, rho, 1);
-    const double side = 1. / tiles;
     for (int face = 0; face < 6; face++)
-        for (int i = 0; i < tiles * tiles; i++) {
-            /* axis k goes through the wall; a x b points into the room */
-            const int k = face / 2, far = face % 2;
-            double o[3] = {0, 0, 0}, a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
-            const int u = (k + 1) % 3, v = (k + 2) % 3;
-            o[k] = far;
-            o[u] = i % tiles * side;
-            o[v] = i / tiles * side;
-            a[far ? v : u] = side;
-            b[far ? u : v] = side;
-            made_quad(scene, face == 5 && i == 0 ? lamp : wall, o[0], o[1], o[2], a[0], a[1], a[2],
-                      b[0], b[1], b[2]);
-        }
+        for (int i = 0; i < tiles * tiles; i++)
+            made_tile(scene, face == 5 && i == 0 ? lamp : wall, 0, face, i, tiles, 1);
 }
 
 /* A room of TILES x TILES tiles a wall, one of them a lamp, of which few particles and few paths
@@ -208,20 +196,17 @@ START_TEST(through_a_hole)
     struct reference r;
     made_open(&scene);
     tiled_room(&scene, TILES, 0.6);
-    const double bands[3][4] = {/* of y and z: beside the hole, and above and below it */
-                                {0, 1, 0, hole[0]},
-                                {0, 1, hole[1], 1},
-                                {0, hole[0], hole[0], hole[1]}};
-    for (int back = 0; back < 2; back++) {
-        for (int i = 0; i < 3; i++) {
-            const double *at = bands[i], wide = at[1] - at[0], high = at[3] - at[2];
+    const double strips[4][4] = {/* y and z: below and above the hole, and beside it */
+                                 {0, 1, 0, hole[0]},
+                                 {0, 1, hole[1], 1},
+                                 {0, hole[0], hole[0], hole[1]},
+                                 {hole[1], 1, hole[0], hole[1]}};
+    for (int back = 0; back < 2; back++)
+        for (int i = 0; i < 4; i++) {
+            const double *at = strips[i], wide = at[1] - at[0], high = at[3] - at[2];
             made_quad(&scene, 0, middle, at[0], at[2], 0, back ? 0 : wide, back ? high : 0, 0,
                       back ? wide : 0, back ? 0 : high);
         }
-        made_quad(&scene, 0, middle, hole[1], hole[0], 0, back ? 0 : 1 - hole[1],
-                  back ? hole[1] - hole[0] : 0, 0, back ? 1 - hole[1] : 0,
-                  back ? 0 : hole[1] - hole[0]);
-    }
     double *mean = calloc(scene.input_count, sizeof *mean),
            *variance = calloc(scene.input_count, sizeof *variance),
            *truth = calloc(scene.input_count, sizeof *truth),

@@ -70,6 +70,23 @@ static inline void made_room(struct scene *s, const uint32_t material[6], double
     made_quad(s, material[5], x, 0, 0, 0, 0, z, 0, y, 0);
 }
 
+/* Tile i of tiles x tiles on one of six faces of a unit cube with its least corner at `corner`:
+ * face 2 k is across axis k there, 2 k + 1 on the far side. inside: 1: it is seen from inside. */
+static inline void made_tile(struct scene *s, uint32_t material, double corner, int face, int i,
+                             int tiles, int inside)
+{
+    const int k = face / 2, far = face % 2, u = (k + 1) % 3, v = (k + 2) % 3,
+              turned = far == inside;
+    const double side = 1. / tiles;
+    double o[3], a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
+    o[k] = corner + far;
+    o[u] = corner + i % tiles * side;
+    o[v] = corner + i / tiles * side;
+    a[turned ? v : u] = side;
+    b[turned ? u : v] = side;
+    made_quad(s, material, o[0], o[1], o[2], a[0], a[1], a[2], b[0], b[1], b[2]);
+}
+
 static inline void made_scale(struct scene *s, double factor)
 {
     for (uint32_t i = 0; i < s->face_count; i++)
