@@ -214,7 +214,7 @@ static double share(struct mean m)
 /* A piece with more between than points can look past. */
 static void by_rays(struct looking *l, struct sight_node *node)
 {
-    const double v = visibility_rays(&node->piece, l->to, &l->tree->host, RAYS);
+    const double v = visibility_rays(&node->piece, l->to, &l->tree->host, RAYS, 0);
     node->by_rays = 1;
     l->cast++;
     node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);

@@ -12,7 +12,10 @@
  * ROW_SHADOW and 1, by the room they have. That moves power within a face and makes none; rows
  * below ROW_SHADOW are shadow, not error, and stay dark. Where the mean row of a whole face exceeds
  * 1, by the noise of its rays, the cap is that mean (cutting noise on one side would lose power),
- * but at most 1 + (1 - rho) / 2: so the iteration converges whatever the oracle does.
+ * but at most 1 + (1 - rho) / 2: so the iteration converges whatever the oracle does. Of what is
+ * above that, links of groups pay first, all alike: they are many and dim, and one ray may have
+ * decided each; strong light has links of surfaces. (In a lamp's reflector they are a fifth of what
+ * arrives by row, and next to nothing of the light.)
  *
  * Closure (CLOSURE_ROWS). In a closed scene every row is 1, so every row is scaled to 1, up or
  * down; a leaf that has no link at all though it is uncovered takes the mean of its face. In an
@@ -81,17 +84,22 @@ static void visit_leaves(struct face_rows *rows, uint32_t e,
         visit(rows, e, uncovered > 0 ? rows->op->row_scale[e] / uncovered : 0, x->area * uncovered);
 }
 
-static void measure_row(struct face_rows *rows, uint32_t leaf, double row, double area)
+static void add_row(struct face_rows *rows, uint32_t leaf, double row, double area)
 {
-    struct row_report *report = rows->report;
-    double off = fabs(row - 1);
     (void)leaf;
-    report->leaves++;
-    if (!(area > 0))
-        return;
     rows->sum += area * row;
     rows->area += area;
     rows->seeing += row > 0 ? area : 0;
+}
+
+static void report_row(struct face_rows *rows, uint32_t leaf, double row, double area)
+{
+    struct row_report *report = rows->report;
+    double off = fabs(row - 1);
+    add_row(rows, leaf, row, area);
+    report->leaves++;
+    if (!(area > 0))
+        return;
     report->low = fmin(row, report->low);
     report->high = fmax(row, report->high);
     report->blind_area += row > 0 ? 0 : area;
@@ -134,17 +142,43 @@ static void close_row(struct face_rows *rows, uint32_t leaf, double row, double 
     op->row[leaf] = row > 1 || op->row_share[leaf] > 0 || (row > 0 && closed) ? 1 : row;
 }
 
-static void sum_faces(const void *operator, size_t from, size_t to)
+/* Leave the rows of a face, whose element is e, where sum_links does. */
+static void sum_face(const struct light_operator *op, uint32_t e)
 {
     static const double nothing[3] = {0, 0, 0};
+    if (op->linear)
+        linear_links_rows(op->linear, op, e, nothing);
+    else
+        sum_links(op, e, 0);
+}
+
+static void sum_faces(const void *operator, size_t from, size_t to)
+{
     const struct light_operator *op = operator;
     for (size_t i = from; i < to; i++)
-        if (!shares_mine(&op->shares, op->hierarchy->face_element[i]))
-            continue;
-        else if (op->linear)
-            linear_links_rows(op->linear, op, op->hierarchy->face_element[i], nothing);
-        else
-            sum_links(op, op->hierarchy->face_element[i], 0);
+        if (shares_mine(&op->shares, op->hierarchy->face_element[i]))
+            sum_face(op, op->hierarchy->face_element[i]);
+}
+
+/* The mean row of a face whose element is e, times its uncovered area, when it takes this share of
+ * what its groups' links bring. Its rows are left so. */
+static double sum_with(const struct light_operator *op, uint32_t e, uint32_t face, double share)
+{
+    struct face_rows rows = {.op = op};
+    separable_links_weaken(&op->separable, face, share);
+    sum_face(op, e);
+    visit_leaves(&rows, e, add_row);
+    return rows.sum;
+}
+
+/* Have a face take so much less of what groups bring that its rows are `most` in the mean, and
+ * nothing of it where links of surfaces bring that much without. Returns what that takes. */
+static double weaken_groups(struct face_rows *rows, uint32_t e, uint32_t face, double most)
+{
+    const double sure = sum_with(rows->op, e, face, 0), all = rows->sum;
+    rows->sum = sum_with(rows->op, e, face,
+                         sure < all ? fmax(0, (most * rows->area - sure) / (all - sure)) : 1);
+    return all - rows->sum;
 }
 
 static void scale_faces(const void *all_rows, size_t from, size_t to)
@@ -159,11 +193,14 @@ static void scale_faces(const void *all_rows, size_t from, size_t to)
         struct face_rows rows = {.cap = 1, .op = op, .report = &run->report};
         if (!shares_mine(&op->shares, e))
             continue;
-        visit_leaves(&rows, e, measure_row);
+        visit_leaves(&rows, e, report_row);
         run->uncovered += rows.area;
         if (p->options.closure == CLOSURE_ROWS) {
             visit_leaves(&rows, e, close_row);
         } else {
+            if (rows.sum > most * rows.area)
+                run->report.moved +=
+                    weaken_groups(&rows, e, (uint32_t)i, most) / rays_host(p->rays)->area;
             if (rows.sum > rows.area)
                 rows.cap = rows.sum < most * rows.area ? rows.sum / rows.area : most;
             visit_leaves(&rows, e, weigh_row);

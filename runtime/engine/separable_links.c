@@ -154,6 +154,7 @@ static void place_faces(const void *links, size_t from, size_t to)
     const struct hierarchy *h = c->hierarchy;
     for (size_t i = from; i < to; i++) {
         c->place[h->order[i]] = (uint32_t)i;
+        c->taken[i] = 1;
         separable_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low,
                             c->unit);
     }
@@ -223,9 +224,10 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h,
     c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
     c->received = malloc(faces * (size_t)bands * sizeof *c->received);
     c->place = malloc(faces * sizeof *c->place);
+    c->taken = malloc(faces * sizeof *c->taken);
     c->faces.centre[0] =
         calloc((SEPARABLE_ARRAYS + (size_t)bands) * faces + SEPARABLE_SPARE, sizeof(float));
-    if (!c->links || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
+    if (!c->links || !c->arrives || !c->received || !c->place || !c->taken || !c->faces.centre[0]) {
         separable_links_close(c);
         return -1;
     }
@@ -273,14 +275,15 @@ void separable_links_gather(const struct separable_links *c, int bands, uint32_t
     size_t count = (size_t)bands;
     if (c->count == 0 || e >= c->elements)
         return;
+    const double taken = (double)c->taken[x->face];
     if (x->depth == 0) {
         for (size_t k = 0; k < count; k++)
-            h[k] += (double)c->received[k * c->hierarchy->face_count + c->place[x->face]];
+            h[k] += taken * (double)c->received[k * c->hierarchy->face_count + c->place[x->face]];
         return;
     }
     for (size_t b = c->first[e]; b < c->first[e + 1]; b++)
         for (size_t k = 0; k < count; k++)
-            h[k] += (double)c->arrives[b * count + k] * (double)c->links[b].takes;
+            h[k] += taken * (double)c->arrives[b * count + k] * (double)c->links[b].takes;
 }
 
 double separable_links_row(const struct separable_links *c, uint32_t e)
@@ -288,6 +291,12 @@ double separable_links_row(const struct separable_links *c, uint32_t e)
     double row = 0;
     separable_links_gather(c, 1, e, &row);
     return row;
+}
+
+void separable_links_weaken(const struct separable_links *c, uint32_t face, double share)
+{
+    if (c->count > 0)
+        c->taken[face] = (float)share;
 }
 
 double separable_links_sends(const struct separable_links *c, size_t b, uint32_t e)
@@ -306,11 +315,12 @@ double separable_links_sends(const struct separable_links *c, size_t b, uint32_t
 double separable_links_takes(const struct separable_links *c, size_t b, uint32_t e)
 {
     const struct element *x = &c->hierarchy->elements[e];
+    const double taken = (double)c->taken[x->face];
     if (x->depth == 0)
-        return (double)taken_by(c, &c->faces, c->place[x->face], &c->links[b]);
+        return taken * (double)taken_by(c, &c->faces, c->place[x->face], &c->links[b]);
     struct separable_side side;
     side_open(c, &side, e);
-    return (double)taken_by(c, &side.faces, 0, &c->links[b]);
+    return taken * (double)taken_by(c, &side.faces, 0, &c->links[b]);
 }
 
 double separable_links_at(const struct separable_links *c, const struct separable_link *b,
@@ -333,6 +343,7 @@ void separable_links_close(struct separable_links *c)
     free(c->arrives);
     free(c->received);
     free(c->place);
+    free(c->taken);
     free(c->faces.centre[0]);
     memset(c, 0, sizeof *c);
 }

@@ -53,6 +53,7 @@ struct separable_links {
      * clusters' */
     float *received;
     uint32_t *place;              /* [face_count]: where a face stands in the tree's order */
+    float *taken;                 /* [face_count]: the share of what arrives that a face takes, 1 */
     struct separable_faces faces; /* [face_count], in the tree's order */
 };
 
@@ -74,6 +75,9 @@ void separable_links_gather(const struct separable_links *c, int bands, uint32_t
 /* The row of e over the same links: what they bring from a radiosity of 1. Only before the first
  * separable_links_send. */
 double separable_links_row(const struct separable_links *c, uint32_t e);
+
+/* Have a face and its parts take this share of what arrives over links; 1 at first. */
+void separable_links_weaken(const struct separable_links *c, uint32_t face, double share);
 
 /* J of link b by a radiosity of 1 on the element e alone, a face below its emitter or the part of a
  * face that is it; and what e, a face below its receiver or the part that is it, takes over J. */

@@ -15,20 +15,27 @@ static inline void segment_clear(struct segment *g, const double n[3], const dou
     }
 }
 
-/* One of them for all: each with a chance in proportion to its weight, by u in [0, 1), so that the
- * mean of what it finds is the share of the weights that arrives. It takes the first place and its
- * weight. [resampled importance sampling, Talbot et al. 2005] */
-static inline void segments_choose(int count, struct segment *segments, double *weight, double u)
+/* A few of them for all: each with a chance in proportion to its weight, by u in [0, 1) and equal
+ * steps, so that the mean of what they find is the share of the weights that arrives. They take the
+ * first places, and equal weights; one that weighs much may be there more than once. [resampled
+ * importance sampling, Talbot et al. 2005] */
+static inline void segments_choose(int count, int few, struct segment *segments, double *weight,
+                                   double u)
 {
-    double sum = 0;
-    int chosen = 0;
+    struct segment chosen[SEGMENTS_MAX];
+    double sum = 0, up_to = weight[0];
     for (int i = 0; i < count; i++)
         sum += weight[i];
-    u *= sum;
-    while (chosen < count - 1 && u >= weight[chosen])
-        u -= weight[chosen++];
-    segments[0] = segments[chosen];
-    weight[0] = sum;
+    const double step = sum / few;
+    for (int i = 0, at = 0; i < few; i++) {
+        while (at < count - 1 && (u + i) * step >= up_to)
+            up_to += weight[++at];
+        chosen[i] = segments[at];
+    }
+    for (int i = 0; i < few; i++) {
+        segments[i] = chosen[i];
+        weight[i] = step;
+    }
 }
 
 /* Cast up to SEGMENTS_MAX of them: add to *all their weights, to *seen those of what arrives. */

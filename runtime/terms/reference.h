@@ -25,7 +25,8 @@ TOOL double reference_trace(struct discussion *d, int rays)
                                              rays <= 64     ? 64
                                              : rays <= 256  ? 256
                                              : rays <= 1024 ? 1024
-                                                            : SOBOL_MOST);
+                                                            : SOBOL_MOST,
+                                             0);
     d->terms.reference_level = REFERENCE_PRESENT;
     return d->terms.reference;
 }

@@ -6,6 +6,11 @@
  * blocked. `a`, the smaller area over the number of segments, bounds the weight of parts that
  * touch.
  *
+ * Few segments of equal chance mislead where elements are nearer to each other than the larger
+ * one's radius: most that is exchanged passes between parts that few of them join. An oracle may
+ * ask there for rays chosen from `near` segments, up to SEGMENTS_MAX, in proportion to what each
+ * would carry.
+ *
  * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
  * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes
  * it. Who asks
@@ -31,14 +36,27 @@
 #include "kernel/segments.h"
 #include "kernel/sobol.h"
 
+/* How many segments `count` of them are chosen from. */
+static inline int visibility_choice(const struct element *r, const struct element *s, int count,
+                                    int near)
+{
+    const double wide = r->radius > s->radius ? r->radius : s->radius;
+    double apart[3];
+    sub3(apart, r->centre, s->centre);
+    const int choice = near > 0 && dot3(apart, apart) < wide * wide ? near
+                       : count > 1                                  ? 1
+                                                                    : VISIBILITY_CHOICE;
+    return count > choice ? count : choice;
+}
+
 /* The visible fraction by `count` segments, a power of two up to SOBOL_MOST, cast in batches of
- * SEGMENTS_MAX. */
+ * SEGMENTS_MAX; of elements near each other chosen from `near`. */
 OUTLINE double visibility_rays(const struct element *receiver, const struct element *emitter,
-                               const struct host *host, int count)
+                               const struct host *host, int count, int near)
 {
     const struct element *r = receiver->id < emitter->id ? receiver : emitter,
                          *s = r == receiver ? emitter : receiver;
-    int points = count > 1 ? count : VISIBILITY_CHOICE;
+    const int points = visibility_choice(r, s, count, near);
     uint64_t hash = hash64(r->id + hash64(s->id));
     struct samples_ends ends;
     sampler_clip(&ends.p, r, s);
@@ -60,7 +78,7 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
         samples_make(&samples, &ends, batch);
         samples_segments(&samples, batch, segments);
         if (count < points) {
-            segments_choose(batch, segments, samples.weight, hash_unit(hash + HASH_STEP));
+            segments_choose(batch, count, segments, samples.weight, hash_unit(hash + HASH_STEP));
             batch = count;
         }
         segments_cast(host, batch, segments, samples.weight, &seen, &all);
@@ -86,7 +104,7 @@ static inline int visibility_rays_of(enum visibility_level level)
                                            : 1 << 2 * (level - VISIBILITY_RAYS_1);
 }
 
-TOOL double term_visibility(struct discussion *d, enum visibility_level level)
+TOOL double visibility_known(struct discussion *d, enum visibility_level level, int near)
 {
     if (d->terms.visibility_level < level) {
         if (level < VISIBILITY_RAYS_1)
@@ -95,11 +113,16 @@ TOOL double term_visibility(struct discussion *d, enum visibility_level level)
             level = VISIBILITY_RAYS_1024;
         if (d->terms.visibility_level < level) {
             d->terms.visibility =
-                visibility_rays(d->receiver, d->emitter, d->host, visibility_rays_of(level));
+                visibility_rays(d->receiver, d->emitter, d->host, visibility_rays_of(level), near);
             d->terms.visibility_level = (unsigned char)level;
         }
     }
     return d->terms.visibility;
+}
+
+TOOL double term_visibility(struct discussion *d, enum visibility_level level)
+{
+    return visibility_known(d, level, 0);
 }
 
 #endif

@@ -28,7 +28,7 @@ static inline double cluster_cast(const struct cluster_ends *p, const struct hos
     if (n == 0)
         return 0;
     if (count == 1) {
-        segments_choose(n, segments, weight, hash_unit(p->hash + HASH_STEP));
+        segments_choose(n, 1, segments, weight, hash_unit(p->hash + HASH_STEP));
         n = 1;
     }
     segments_cast(host, n, segments, weight, &seen, &whole);

@@ -42,9 +42,11 @@ static inline const struct element *light_visibility_part(const struct element *
 }
 
 OUTLINE double light_visibility_rays(const struct element *r, const struct element *s,
-                                     const struct host *host, int count)
+                                     const struct host *host, int count, int near)
 {
     const struct element *elements = host->elements ? *host->elements : NULL;
+    const uint64_t hash = hash64(r->id + 2 * hash64(s->id));
+    const int points = visibility_choice(r, s, count, near);
     struct samples_ends ends;
     sampler_clip(&ends.p, r, s);
     if (ends.p.p.n == 0)
@@ -52,15 +54,15 @@ OUTLINE double light_visibility_rays(const struct element *r, const struct eleme
     ends.q.p.n = 0;
     ends.n = r->normal;
     ends.m = s->normal;
-    ends.spread = (r->area < s->area ? r->area : s->area) / count;
+    ends.spread = (r->area < s->area ? r->area : s->area) / points;
     ends.ray_offset = host->ray_offset;
     struct sobol net;
-    sobol_start(&net, hash64(r->id + 2 * hash64(s->id)));
+    sobol_start(&net, hash);
     struct samples samples;
     struct segment segments[SEGMENTS_MAX];
     double seen = 0, all = 0;
-    for (int first = 0; first < count; first += SEGMENTS_MAX) {
-        int batch = count - first < SEGMENTS_MAX ? count - first : SEGMENTS_MAX;
+    for (int first = 0; first < points; first += SEGMENTS_MAX) {
+        int batch = points - first < SEGMENTS_MAX ? points - first : SEGMENTS_MAX;
         sobol_points(&net, first, batch, samples.digit);
         for (int i = 0; i < batch; i++) {
             double u = sobol_unit(samples.digit[2][i]), to[3];
@@ -73,15 +75,20 @@ OUTLINE double light_visibility_rays(const struct element *r, const struct eleme
             samples.to[0][i] = samples.to[1][i] = samples.to[2][i] = 0;
         samples_make(&samples, &ends, batch);
         samples_segments(&samples, batch, segments);
+        if (count < points) {
+            segments_choose(batch, count, segments, samples.weight, hash_unit(hash + HASH_STEP));
+            batch = count;
+        }
         segments_cast(host, batch, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }
 
-TOOL enum light_visibility_answer tool_light_visibility(struct discussion *d, int rays)
+TOOL enum light_visibility_answer tool_light_visibility(struct discussion *d, int rays, int near)
 {
     enum visibility_level level = visibility_level_of(rays);
-    double v = light_visibility_rays(d->receiver, d->emitter, d->host, visibility_rays_of(level));
+    double v =
+        light_visibility_rays(d->receiver, d->emitter, d->host, visibility_rays_of(level), near);
     d->terms.visibility = v;
     d->terms.visibility_level = (unsigned char)level;
     return v <= 0 ? LIGHT_VISIBILITY_NONE : v < 1 ? LIGHT_VISIBILITY_PARTIAL : LIGHT_VISIBILITY_ALL;

@@ -66,7 +66,7 @@ cp "$bf" other.dag # beside another common.dag
 sed 's/none -> hidden;  partial | all -> form/none -> hidden; partial -> subdivide_receiver; all -> form/' "$top/examples/oracles/common.dag" >common.dag
 check "diff: the same" status 0 "$dagc" diff "$bf" "$bf"
 check "diff: different" status 1 "$dagc" diff "$bf" other.dag
-check "diff: the witness" says 'visibility(rays = rays): partial' "$dagc" diff "$bf" other.dag
+check "diff: the witness" says 'visibility(rays = rays, near = 0): partial' "$dagc" diff "$bf" other.dag
 check "diff: the decision" says '^+ other.dag decides subdivide_receiver after seen' "$dagc" diff "$bf" other.dag
 check "diff: trouble" status 2 "$dagc" diff "$bf" no-such-file.dag
 check "diff: usage" status 2 "$dagc" diff "$bf"

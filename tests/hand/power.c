@@ -21,6 +21,7 @@
 
 struct parameters {
     double energy, bend, shadow, noise, hidden, spot, uneven, product, larger, min_share;
+    int near;
 };
 
 enum { RECEIVER, EMITTER, NEITHER };
@@ -117,19 +118,19 @@ static double factor(struct pair *p)
     return p->factor;
 }
 
-static void cast(struct pair *p, int rays)
+static void cast(struct pair *p, int rays, int near)
 {
     enum visibility_level level = visibility_level_of(rays);
     if (p->seen_level < level) {
-        p->seen = visibility_rays(p->r, p->s, p->host, rays);
+        p->seen = visibility_rays(p->r, p->s, p->host, rays, near);
         p->seen_level = level;
     }
 }
 
 /* Rays that end where the emitter's light comes from. */
-static void cast_at_light(struct pair *p, int rays)
+static void cast_at_light(struct pair *p, int rays, int near)
 {
-    p->seen = light_visibility_rays(p->r, p->s, p->host, rays);
+    p->seen = light_visibility_rays(p->r, p->s, p->host, rays, near);
     p->seen_level = visibility_level_of(rays);
 }
 
@@ -158,7 +159,7 @@ static void look_closely(struct pair *p, enum sight between)
         p->seen = outline_visibility(p->r, p->s, p->host, p->list);
         p->seen_level = VISIBILITY_RAYS_64;
     } else {
-        cast(p, 64);
+        cast(p, 64, 0);
     }
 }
 
@@ -227,9 +228,9 @@ static int spotted(struct pair *p, const struct parameters *by, double spot, dou
         if (decision != GO_ON)
             return decision;
     }
-    cast_at_light(p, 4);
+    cast_at_light(p, 4, by->near);
     if (p->s->radiosity * f * noise(p) > limit)
-        cast_at_light(p, 16);
+        cast_at_light(p, 16, by->near);
     return p->seen <= 0 ? DECISION_STOP : DECISION_LINK;
 }
 
@@ -245,7 +246,7 @@ static int seen(struct pair *p, const struct parameters *by, double brought)
         if (last)
             look_closely(p, between);
         else
-            cast(p, rays);
+            cast(p, rays, by->near);
         int partial = p->seen > 0 && p->seen < 1;
         if (p->seen <= 0) {
             if (last || !(brought * noise(p) > lost))
@@ -281,11 +282,12 @@ static enum decision link_surfaces(struct pair *p, struct discussion *d)
 }
 
 /* Where nothing that is wrong would matter. */
-static enum decision looked_at_once(struct pair *p, struct discussion *d, int listed)
+static enum decision looked_at_once(struct pair *p, const struct parameters *by,
+                                    struct discussion *d, int listed)
 {
     if (listed)
         (void)look_between(p);
-    cast(p, 1);
+    cast(p, 1, by->near);
     return p->seen > 0 ? link_surfaces(p, d) : hand_over(p, d, DECISION_STOP);
 }
 
@@ -310,7 +312,7 @@ static enum decision surfaces(const struct parameters *by, struct discussion *d)
         && (point_intensity(s, s->radiosity) > dim * p.square || s->radiosity * factor(&p) > dim))
         (void)exact_factor(&p);
     if (!(s->radiosity * factor(&p) > dim))
-        return looked_at_once(&p, d, listed && !cut && r->depth + s->depth > 0);
+        return looked_at_once(&p, by, d, listed && !cut && r->depth + s->depth > 0);
     if (!cut && (listed || (r->depth == 0 && s->depth == 0)) && look_between(&p) == BLOCKED)
         return hand_over(&p, d, DECISION_STOP);
 
@@ -405,11 +407,12 @@ static void defaults(void *at)
                                                    .bend = 5e-6,
                                                    .shadow = 3e-5,
                                                    .noise = 8e-6,
-                                                   .hidden = 0.12,
+                                                   .hidden = 0.3,
                                                    .spot = 3e-7,
                                                    .uneven = 8,
                                                    .product = 2.5e-5,
                                                    .larger = 3,
+                                                   .near = 64,
                                                    .min_share = 1e-7};
 }
 
@@ -419,11 +422,12 @@ static const struct oracle_parameter table[] = {
     {"bend", "", "", 5e-6, 0, INFINITY, AT(bend), ROLE_LINK_THRESHOLD, 0},
     {"shadow", "", "", 3e-5, 0, INFINITY, AT(shadow), ROLE_LINK_THRESHOLD, 0},
     {"noise", "", "", 8e-6, 0, INFINITY, AT(noise), ROLE_LINK_THRESHOLD, 0},
-    {"hidden", "", "", 0.12, 0, 1, AT(hidden), ROLE_NONE, 0},
+    {"hidden", "", "", 0.3, 0, 1, AT(hidden), ROLE_NONE, 0},
     {"spot", "", "", 3e-7, 0, INFINITY, AT(spot), ROLE_LINK_THRESHOLD, 0},
     {"uneven", "", "", 8, 1, INFINITY, AT(uneven), ROLE_NONE, 0},
     {"product", "", "", 2.5e-5, 0, INFINITY, AT(product), ROLE_LINK_THRESHOLD, 0},
     {"larger", "", "", 3, 0, INFINITY, AT(larger), ROLE_NONE, 0},
+    {"near", "", "", 64, 0, 64, 1, offsetof(struct parameters, near), ROLE_NONE, 0},
     {"min_share", "", "", 1e-7, 0, 1, AT(min_share), ROLE_SMALLEST_PART, 0},
 };
 
@@ -432,7 +436,7 @@ const struct oracle hand_power = {RUNTIME_ABI,
                                   "written by hand",
                                   "",
                                   table,
-                                  10,
+                                  11,
                                   sizeof(struct parameters),
                                   defaults,
                                   refine,

@@ -246,7 +246,7 @@ START_TEST(test_hidden)
         ck_assert_int_eq(found == HOST_HIDDEN, cases[i].hidden);
         /* no ray gets through, whatever side says so */
         if (found == HOST_HIDDEN)
-            ck_assert(visibility_rays(face_of(&t, 0), face_of(&t, 1), &t.host, 1024) <= 0);
+            ck_assert(visibility_rays(face_of(&t, 0), face_of(&t, 1), &t.host, 1024, 0) <= 0);
         exchange_tree_close(&t);
         made_close(&s);
     }

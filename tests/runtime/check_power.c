@@ -290,7 +290,7 @@ START_TEST(test_light_visibility)
         l.y0 = 0.25;
         l.y1 = 0.375;
         struct discussion few = lamp_discussion(&l), many = few, plain = few;
-        enum light_visibility_answer answer = tool_light_visibility(&few, 16);
+        enum light_visibility_answer answer = tool_light_visibility(&few, 16, 0);
         ck_assert_int_eq(few.terms.visibility_level, VISIBILITY_RAYS_16);
         double v = few.terms.visibility;
         ck_assert_int_eq(answer, v <= 0  ? LIGHT_VISIBILITY_NONE
@@ -298,7 +298,7 @@ START_TEST(test_light_visibility)
                                          : LIGHT_VISIBILITY_ALL);
         sum += v / PAIRS;
         squares += v * v / PAIRS;
-        (void)tool_light_visibility(&many, 1024);
+        (void)tool_light_visibility(&many, 1024, 0);
         worst = fmax(worst, fabs(many.terms.visibility - share));
         whole += term_visibility(&plain, VISIBILITY_RAYS_16) >= 1;
         area += plain.terms.visibility / PAIRS;
@@ -315,12 +315,12 @@ START_TEST(test_light_visibility)
     /* Nothing stands there, and a plate over all. */
     l.x0 = l.x1 = 2;
     struct discussion d = lamp_discussion(&l);
-    ck_assert_int_eq(tool_light_visibility(&d, 16), LIGHT_VISIBILITY_ALL);
+    ck_assert_int_eq(tool_light_visibility(&d, 16, 0), LIGHT_VISIBILITY_ALL);
     ck_assert_double_eq(d.terms.visibility, 1);
     l.x0 = l.y0 = -1;
     l.x1 = l.y1 = 2;
     d = lamp_discussion(&l);
-    ck_assert_int_eq(tool_light_visibility(&d, 4), LIGHT_VISIBILITY_NONE);
+    ck_assert_int_eq(tool_light_visibility(&d, 4, 0), LIGHT_VISIBILITY_NONE);
     ck_assert_double_eq(d.terms.visibility, 0);
 }
 END_TEST

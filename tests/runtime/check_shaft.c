@@ -103,7 +103,7 @@ static enum shaft_answer ask(const struct world *w, const uint32_t pair[2], stru
     enum shaft_answer answer = tool_shaft(&d);
     if (answer == SHAFT_VISIBLE || answer == SHAFT_INVISIBLE) {
         ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_EXACT);
-        ck_assert(tool_visibility(&d, 1024)
+        ck_assert(tool_visibility(&d, 1024, 0)
                   == (answer == SHAFT_VISIBLE ? VISIBILITY_ALL : VISIBILITY_NONE));
         ck_assert(term_visibility_error(&d) == 0);
         /* known so well, it needs no list, but for the pairs below */

@@ -144,6 +144,59 @@ START_TEST(test_cap)
 }
 END_TEST
 
+/* Under a ceiling of four squares that shine, which is one group, and beside a lamp: all that face
+ * 0 gets, of the lamp *state times its radiosity. */
+static enum decision under_group(const void *state, struct discussion *d)
+{
+    const struct element *r = d->receiver, *e = d->emitter;
+    if (!r->vertices)
+        return r->children && e->vertices ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_BOTH;
+    memset(&d->terms, 0, sizeof d->terms);
+    d->terms.visibility = 1;
+    if (!e->vertices) /* of ceiling alone, in whose plane the centre is then */
+        return r->face == 0 && e->centre[2] > 1.999 ? DECISION_LINK_CLUSTERS
+                                                    : DECISION_SUBDIVIDE_EMITTER;
+    d->terms.form_factor = *(const double *)state;
+    return r->face == 0 && e->face == 1 ? DECISION_LINK : DECISION_STOP;
+}
+
+static double light_from_group(enum RadSolver solver, double lamp)
+{
+    struct refiner refiner = {
+        .refine = under_group, .state = &lamp, .oracle = "scripted", .release = "hand"};
+    struct solve_options how = options(1e-9, solver);
+    const char *cause;
+    struct scene scene;
+    made_open(&scene);
+    add_square(&scene, 2, 0.5, 0);
+    add_square(&scene, 2, 0, 1024);
+    const uint32_t shines = made_material(&scene, 0, 1);
+    for (int i = 0; i < 4; i++)
+        made_quad(&scene, shines, 1 - 4.0 * (i / 2), 1 - 4.0 * (i % 2), 2, 0, 4, 0, 4, 0, 0);
+    struct solve s;
+    ck_assert_int_eq(solve_open(&s, &scene, &how, &cause), 0);
+    ck_assert_int_eq(solve_run(&s, &refiner, &cause), 0);
+    const double light = 2 * face_value(&s, 0);
+    solve_close(&s);
+    made_close(&scene);
+    return light;
+}
+
+/* A face that reflects half may see 5/4 of everything. Of what a link of groups brings, whose
+ * radiosity is 1, it takes all beside 1/4 and 1/2 of a lamp, so much as is left beside 1.1 of it,
+ * and nothing beside 3/2, which are cut to 5/4. */
+START_TEST(test_group_cap)
+{
+    static const enum RadSolver solvers[] = {RAD_SOLVER_GAUSS_SEIDEL, RAD_SOLVER_SOUTHWELL,
+                                             RAD_SOLVER_LU};
+    const double all = light_from_group(solvers[_i], 0.25) - 256;
+    ck_assert_double_gt(all, 0.4);
+    ck_assert_double_eq_tol(light_from_group(solvers[_i], 0.5), 512 + all, 1e-4);
+    ck_assert_double_eq_tol(light_from_group(solvers[_i], 1.1), 1024 * 1.1 + 0.15, 1e-4);
+    ck_assert_double_eq_tol(light_from_group(solvers[_i], 1.5), 1024 * 1.25, 1e-4);
+}
+END_TEST
+
 /* ---- what stands on a face */
 
 static double above_and_split(const struct element *r, const struct element *e)
@@ -562,6 +615,7 @@ int main(void)
     Suite *suite = suite_create("transport");
     TCase *c = tcase_create("transport");
     tcase_add_test(c, test_cap);
+    tcase_add_loop_test(c, test_group_cap, 0, 3);
     tcase_add_test(c, test_stands);
     tcase_add_loop_test(c, test_stop, 0, 2);
     tcase_add_loop_test(c, test_tenth, 0, 4);

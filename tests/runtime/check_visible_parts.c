@@ -186,7 +186,7 @@ START_TEST(test_penumbra)
             /* the first is where the umbra ends */
             ck_assert_double_eq_tol(v[k], right[i], i ? 1e-9 : 1e-6);
             d = discuss_faces(&w, 0, 1);
-            (void)tool_visibility(&d, 1024);
+            (void)tool_visibility(&d, 1024, 0);
             ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_RAYS_1024);
             ck_assert_double_eq_tol(d.terms.visibility * polygon_factor(d.receiver, d.emitter, 1),
                                     right[i], 1e-3);
@@ -221,7 +221,7 @@ START_TEST(test_levels)
         struct discussion d = discuss_faces(&w, 0, 1);
         uint64_t before = rays_count(w.rays).rays;
         ck_assert(term_visibility_error(&d) == 0.5);
-        (void)tool_visibility(&d, way[i].asked);
+        (void)tool_visibility(&d, way[i].asked, 0);
         ck_assert_int_eq((int)(rays_count(w.rays).rays - before), way[i].cast);
         ck_assert_int_eq(d.terms.visibility_level, way[i].level);
         double sigma = term_visibility_error(&d);
@@ -229,7 +229,7 @@ START_TEST(test_levels)
             sigma, sqrt(d.terms.visibility * (1 - d.terms.visibility) / way[i].cast), 1e-15);
         /* a net does better than chance; the pair is fixed */
         ck_assert_double_eq_tol(d.terms.visibility, v, 3 * sigma);
-        (void)tool_visibility(&d, 4); /* known better already */
+        (void)tool_visibility(&d, 4, 0); /* known better already */
         ck_assert_int_eq((int)(rays_count(w.rays).rays - before), way[i].cast);
         (void)tool_extinction(&d);
         ck_assert_int_eq(d.terms.visibility_level, way[i].level);
@@ -241,7 +241,7 @@ START_TEST(test_levels)
     { /* the reference leaves the visibility alone */
         struct discussion d = discuss_faces(&w, 0, 1);
         uint64_t before = rays_count(w.rays).rays;
-        (void)tool_visibility(&d, 4);
+        (void)tool_visibility(&d, 4, 0);
         (void)tool_trace_reference(&d, 2000);
         ck_assert_int_eq((int)(rays_count(w.rays).rays - before), 4 + 4096);
         ck_assert_int_eq(tool_reference(&d), REFERENCE_PARTIAL);
@@ -266,7 +266,7 @@ static enum decision look(const void *state, struct discussion *d)
                                                         : DECISION_SUBDIVIDE_EMITTER;
     if (d->receiver == d->emitter || d->receiver->depth + d->emitter->depth > 0)
         return DECISION_STOP;
-    (void)tool_visibility(d, 16);
+    (void)tool_visibility(d, 16, 0);
     return *then;
 }
 
@@ -288,7 +288,7 @@ START_TEST(test_both_ways)
                 d.host = w.host;
                 if (d.receiver->vertices && d.emitter->vertices) {
                     uint64_t before = rays_count(w.rays).rays;
-                    (void)tool_visibility(&d, 16);
+                    (void)tool_visibility(&d, 16, 0);
                     pairs += rays_count(w.rays).rays > before;
                 }
             }
@@ -335,7 +335,7 @@ START_TEST(test_one_ray)
             uint64_t before = rays_count(w.rays).rays + spared_rays;
             for (int k = 0; k < 3; k++)
                 grouped ? (void)tool_cluster_visibility(&d[k], k < 2 ? 1 : 4)
-                        : (void)tool_visibility(&d[k], k < 2 ? 1 : 4);
+                        : (void)tool_visibility(&d[k], k < 2 ? 1 : 4, 0);
             /* what passes the board by takes none */
             ck_assert_uint_eq(rays_count(w.rays).rays + spared_rays - before, 1 + 1 + 4);
             ck_assert_int_eq(d[0].terms.visibility_level, VISIBILITY_RAYS_1);

@@ -126,7 +126,7 @@ int main(void)
         const struct element face = make(i, 3 + (int)(i / 4 % 2), i % 3 == 0, spread / 2);
         host.ray_offset = 1e-5 * spread;
         mix_shaft(&shaft, &a, &b, &face, &host);
-        mix(&seen_by_rays, visibility_rays(&a, &b, &host, i % 2 ? 16 : 64));
+        mix(&seen_by_rays, visibility_rays(&a, &b, &host, i % 2 ? 16 : 64, 0));
     }
     printf("%d pairs see each other: %016" PRIx64 " %016" PRIx64 " %016" PRIx64 " %016" PRIx64
            " %016" PRIx64 "\n",

@@ -101,13 +101,13 @@ check "never discussed" grep -q '^never discussed; as it would be now, after [0-
 check "no decision" grep -q '^  => ' out
 
 # ---- --replace does what an edit of the file does
-sed 's/node four  *= visibility(rays = 4)/node four = visibility(rays = 64)/' "$oracles/power.dag" >edited.dag
+sed 's/node four  *= visibility(rays = 4,/node four = visibility(rays = 64,/' "$oracles/power.dag" >edited.dag
 cp "$oracles/common.dag" .
 solve "$room" "${coarse[@]}" --oracle edited.dag --trace edited.csv
-solve "$room" "${coarse[@]}" --replace 'pair__four = visibility(rays = 64)' --trace replaced.csv
+solve "$room" "${coarse[@]}" --replace 'pair__four = visibility(rays = 64, near = 64)' --trace replaced.csv
 check "a tool replaced is not a tool edited" cmp -s edited.csv replaced.csv
 check "a tool replaced changes nothing" [ "$(cmp all.csv replaced.csv 2>&1)" ]
-solve "$room" "${coarse[@]}" --oracle power --replace 'pair__four = visibility(rays = 64)' --replace 'pair__four = visibility(rays = 4)' --trace replaced.csv
+solve "$room" "${coarse[@]}" --oracle power --replace 'pair__four = visibility(rays = 64, near = 64)' --replace 'pair__four = visibility(rays = 4, near = 64)' --trace replaced.csv
 check "replaced back" cmp -s all.csv replaced.csv
 # A fixed answer: `shaded` leads below, so nothing asks it.
 sed 's/partial -> shaded;  all -> few_clear/partial -> few_halved;  all -> few_clear/' "$oracles/power.dag" >edited.dag
