@@ -78,6 +78,8 @@ static double split_weight(const struct dim_faces *d, const struct dim_polygon *
 
 int dim_is_sure(const struct dim_faces *d, const struct dim_polygon *p)
 {
+    if (dim_is_blind(p))
+        return 1;
     double variance, both = light_of_both(d, p, &variance), weight = split_weight(d, p),
                      goal = DIM_GOAL * ((1 - weight) * both + weight * p->split_light);
     if (weight > 0)

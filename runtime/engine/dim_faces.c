@@ -21,6 +21,9 @@
  * are asked in the same way where few rays have been cast, all to be equally sure: there are too
  * many to get some of them right and leave the others as they are.
  *
+ * A polygon whose paths all meet nothing is one that touches what it is turned to, as a cupboard's
+ * back does a wall: it is dark, and no more is asked.
+ *
  * Those that are not sure then are behind a second door: what paths end in is as wrong there as the
  * polygon. For them particles are split (dim_split.c); and where these say otherwise than paths by
  * more than the noise of both, paths are thought to be off by that much.
@@ -40,13 +43,13 @@
 
 enum {
     RAYS_OF_PATH = 4, /* about, before any is traced */
-    LOOK = 256        /* paths of a first look at most: chosen, the variance is known to a tenth */
+    LOOK = DIM_BLIND  /* paths of a first look at most: chosen, the variance is known to a tenth */
 };
 #define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
 
 /* ---- which polygons */
 
-/* A polygon, and what of it reflects (m2). */
+/* A polygon, and what of it reflects and is not covered by what stands on it (m2). */
 struct candidate {
     uint32_t polygon;
     double area;
@@ -83,7 +86,9 @@ static int list_polygons(struct dim_faces *d, uint32_t most)
     }
     for (uint32_t i = 0; i < h->face_count && !failed; i++) {
         struct candidate *c = &all[h->faces[i].input];
-        c->area += tracer_reflectance(t, i) > 0 ? tracer_surface(t, i)->area : 0;
+        if (tracer_reflectance(t, i) > 0)
+            c->area +=
+                tracer_surface(t, i)->area * d->solve->operator.uncovered[h->face_element[i]];
     }
     for (uint32_t p = 0; p < polygons && !failed; p++)
         if (is_asked(d, &all[p]))
@@ -201,6 +206,8 @@ static double light_known(const struct dim_faces *d, const struct dim_polygon *p
  * times the first look in all: what fewer say is not taken. */
 static double paths_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
 {
+    if (dim_is_blind(p))
+        return 0;
     double goal = share * light_known(d, p),
            all = dim_path_variance(d, p) * fmax(1 / (goal * goal) - 1 / p->variance, 0);
     return fmax(fmax(all, (double)(DIM_ENOUGH * p->looked)) - (double)p->paths, 0);

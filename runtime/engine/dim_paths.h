@@ -21,12 +21,21 @@ struct dim_polygon {
     int planned;       /* 1: is to reach DIM_GOAL */
     uint64_t looked;   /* paths of a first look */
     uint64_t paths, wanted, rays;
+    uint64_t blind;     /* paths that met no front and found no light */
     double sum[3];      /* over paths: of what they find, H (W/m2); */
     double all, square; /* of rho H, all bands, and of its square */
     /* by particles that are split (dim_split.h): light, its variance, 0 before there are any, and
      * mean irradiance */
     double split_light, split_variance, split[3];
 };
+
+enum { DIM_BLIND = 256 }; /* paths: one that sees so often nothing at all is dark, for sure */
+
+/* Does it see nothing, as what is turned to a wall it touches, or to the void? */
+static inline int dim_is_blind(const struct dim_polygon *p)
+{
+    return p->paths >= DIM_BLIND && p->blind == p->paths;
+}
 
 /* Which polygons: those above DIM_LARGE of the area, or the others. */
 enum dim_size { DIM_LARGE_ONES, DIM_SMALL_ONES };

@@ -103,6 +103,41 @@ START_TEST(test_found)
 }
 END_TEST
 
+/* A box of .3 at (x, 1/2, z). */
+static void add_box(struct scene *scene, uint32_t material, double x, double z)
+{
+    made_quad(scene, material, x, 0.5, z, 0, 0.3, 0, 0.3, 0, 0);
+    made_quad(scene, material, x, 0.5, z, 0, 0, 0.3, 0, 0.3, 0);
+    made_quad(scene, material, x, 0.5, z, 0.3, 0, 0, 0, 0, 0.3);
+    made_quad(scene, material, x, 0.5, z + 0.3, 0.3, 0, 0, 0, 0.3, 0);
+    made_quad(scene, material, x + 0.3, 0.5, z, 0, 0.3, 0, 0, 0, 0.3);
+    made_quad(scene, material, x, 0.8, z, 0, 0, 0.3, 0.3, 0, 0);
+}
+
+/* A box against a wall, another one and a third on that: what touches floor or wall sees nothing,
+ * and that is known; the two faces where boxes meet are not asked. */
+START_TEST(test_stood_on)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    made_open(&scene);
+    const uint32_t wall = made_material(&scene, RHO, 0), lamp = made_material(&scene, RHO, 1);
+    const uint32_t walls[6] = {wall, wall, wall, wall, wall, lamp};
+    made_room(&scene, walls, 1, 1, 1);
+    add_box(&scene, wall, 0, 0);
+    add_box(&scene, wall, 0.5, 0);
+    add_box(&scene, wall, 0.5, 0.3);
+    solve_with(&s, &scene, "bf", RELEASE_FLAT, NULL, quick(2));
+    mend_all(&s, 1e-4, 450000, &alone);
+    ck_assert_uint_eq(alone.dim.large, 6 + 6 + 5 + 5);
+    ck_assert_uint_eq(alone.dim.unsure, 0);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 static uint32_t unsure; /* as the last of mend_apart said */
 
 /* Mend by `particles`, then dim polygons by `budget` rays. Returns what the latter returned; *root:
@@ -297,6 +332,7 @@ int main(void)
     TCase *tests = tcase_create("");
     tcase_set_timeout(tests, 60);
     tcase_add_test(tests, test_found);
+    tcase_add_test(tests, test_stood_on);
     tcase_add_test(tests, test_unsure);
     tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_same_bits);
