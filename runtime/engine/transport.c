@@ -26,6 +26,10 @@
  * largest reflectance, of the change before; Southwell's by its ambient estimate, in which what is
  * unshot goes on among all surfaces and rho is their mean.
  *
+ * How far down. What groups send is summed in single precision, so a change too small to see may
+ * turn a last digit, and that change turn it back a sweep later: for ever, at a bound that falls no
+ * more. Sweeps end then, if the bound is no more than single precision is worth.
+ *
  * To which tolerance. Constants on leaves have an error that no sweep takes away; a tenth of it is
  * little beside it (variation.c), and where nobody asks for another tolerance that is the one.
  * [Arvo et al. 1994, section 6.3, for the balance]
@@ -144,6 +148,16 @@ static double left_of(const struct light_operator *op, struct transport *x, doub
     return x->bound / x->held;
 }
 
+/* Does the bound fall no more, for last digits of what groups send? *least: its least so far;
+ * *since: sweeps since then. */
+static int stalled(const struct light_operator *op, const struct transport *x, double *least,
+                   int *since)
+{
+    *since = x->bound < *least ? 0 : *since + 1;
+    *least = fmin(x->bound, *least);
+    return *since >= SOLVE_STALLED && x->bound <= SOLVE_SINGLE && op->separable.count > 0;
+}
+
 /* Sweeps, between which Southwell's method shoots. */
 static int iterate(const struct light_operator *op, struct transport *x, struct change *change,
                    double *room, struct southwell *shooter)
@@ -151,6 +165,8 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI || shooter;
     const int most = op->problem->options.iterations;
     const double rho = reflects(op, x);
+    double least = INFINITY;
+    int since = 0;
     while (x->sweeps < most && !x->converged) {
         if (shooter)
             southwell_keep(shooter, op, x);
@@ -158,7 +174,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
         measure(op, x, change);
         x->sweeps++;
         double left = left_of(op, x, rho);
-        x->converged = left <= 1;
+        x->converged = left <= 1 || (!x->rough && stalled(op, x, &least, &since));
         if (x->watch && x->watch(x->watch_context, x))
             return -1;
         if (shooter && !x->converged && southwell_shoot(shooter, op, x, left, most) < 0)

@@ -41,7 +41,7 @@ agree() { # SCENE ARGUMENTS...
     local scene=$1
     shift
     solve sweeps "$scene" --tolerance 1e-8 --no-correct --no-errors "$@"
-    solve petsc "$scene" --tolerance 1e-8 --no-correct --no-errors --solver petsc "$@"
+    solve petsc "$scene" --tolerance 1e-8 --iterations 3000 --no-correct --no-errors --solver petsc "$@"
     check "$(basename "$scene") $*: status $?, $(head -n 3 said)" [ -s petsc.csv ]
     check "$(basename "$scene") $*: solved by $(method petsc.json)" [ "$(method petsc.json)" = petsc ]
     check "$(basename "$scene") $*: $(value petsc.json converged)" [ "$(value petsc.json converged)" = true ]
