@@ -19,7 +19,8 @@ struct transport {
     /* what iteration may leave, relative; 0: a tenth of what constants on leaves leave
      * (variation.h), within SOLVE_TOLERANCE and SOLVE_TOLERANCE_MOST */
     double tolerance;
-    /* 1: an estimate of what it leaves will do; 0: the bound must be within the tolerance */
+    /* 1: an estimate of what it leaves will do; 0: the bound must be within the tolerance, or as
+     * low as single precision lets it be (transport.c) */
     int rough;
     /* after each sweep; NULL: none; nonzero stops */
     int (*watch)(void *context, const struct transport *x);
