@@ -302,6 +302,11 @@
  * this, 5e-5 to 4e-4 of the reflected light is (cornell, room, panels, furnace, maze_8, each over
  * its last links) */
 #define REFINER_SOLVE_TOLERANCE_MOST 1e-3
+/* sweeps. A bound that has not fallen for so long is as low as rounding lets it be; chosen: without
+ * rounding it falls with each */
+#define REFINER_SOLVE_STALLED 64
+/* 2^-23, relative. What single precision resolves */
+#define REFINER_SOLVE_SINGLE 1.2e-7
 /* of what constants on leaves leave (engine/variation.c): so much iteration may leave beside it.
  * chosen: a tenth is little beside the whole */
 #define REFINER_SOLVE_SHARE 0.1
