@@ -207,7 +207,7 @@ END_TEST
 START_TEST(test_near)
 {
     enum { SLATS = 40, PAIRS = 2000 };
-    const double zero[3] = {0, 0, 0};
+    static const double zero[1 + SLATS]; /* of each face */
     struct scene s;
     made_open(&s);
     made_material(&s, 0.5, 1);
