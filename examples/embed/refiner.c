@@ -2471,6 +2471,16 @@ static inline void refiner_segments_cast(const struct refiner_host *host, int co
     }
 }
 
+/* The same for `few` of them, chosen by a number that the hash gives, where so many were made. */
+static inline void refiner_segments_cast_few(const struct refiner_host *host, int made, int few, uint64_t hash,
+                                     struct refiner_segment *segments, double *weight, double *seen,
+                                     double *all)
+{
+    if (few < made)
+        refiner_segments_choose(made, few, segments, weight, refiner_hash_unit(hash + REFINER_HASH_STEP));
+    refiner_segments_cast(host, few < made ? few : made, segments, weight, seen, all);
+}
+
 #endif
 
 /* How many segments `count` of them are chosen from. */
@@ -2514,11 +2524,7 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
         refiner_sobol_points(&net, first, batch, samples.digit);
         refiner_samples_make(&samples, &ends, batch);
         refiner_samples_segments(&samples, batch, segments);
-        if (count < points) {
-            refiner_segments_choose(batch, count, segments, samples.weight, refiner_hash_unit(hash + REFINER_HASH_STEP));
-            batch = count;
-        }
-        refiner_segments_cast(host, batch, segments, samples.weight, &seen, &all);
+        refiner_segments_cast_few(host, batch, count, hash, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

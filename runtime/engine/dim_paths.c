@@ -20,10 +20,10 @@
 /* Random numbers that nothing else takes; each polygon has its own. */
 static const uint64_t STREAM = (uint64_t)0x64696d << 32;
 
-/* What one path from x, just in front of the face, finds: h[bands], 0 before. Returns 1 where it
- * met a front. */
-static int trace_path(const struct dim_faces *d, uint32_t face, double x[3], struct dice *dice,
-                      double *h, uint64_t *rays)
+/* What one path from x, just in front of the face, finds: h[bands], 0 before. *sighted is raised
+ * where it meets a front. */
+static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], struct dice *dice,
+                       double *h, uint64_t *rays, uint64_t *sighted)
 {
     static const struct path_rays each = {1, 1};
     const struct tracer *t = d->tracer;
@@ -38,7 +38,8 @@ static int trace_path(const struct dim_faces *d, uint32_t face, double x[3], str
         for (uint32_t k = 0; k < t->bands; k++)
             h[k] += through[k] * found[k];
         if (met < 0)
-            return met_before > 0;
+            return;
+        *sighted += met_before == 0;
         face = (uint32_t)met;
         if (met_before > 0 && d->of[t->hierarchy->faces[face].input] == NOT_DIM) {
             const struct leaf_light leaf = quarter_light_at(&d->light, face, at);
@@ -47,7 +48,7 @@ static int trace_path(const struct dim_faces *d, uint32_t face, double x[3], str
                 for (uint32_t k = 0; k < t->bands; k++)
                     h[k] +=
                         through[k] * (leaf.radiosity[k] - t->exitance[(size_t)face * t->bands + k]);
-                return 1;
+                return;
             }
         }
         for (uint32_t k = 0; k < t->bands; k++) {
@@ -56,11 +57,11 @@ static int trace_path(const struct dim_faces *d, uint32_t face, double x[3], str
             left = fmax(left, through[k]);
         }
         if (!(left > 0))
-            return 1;
+            return;
         if (met_before == 0) /* goes on for certain: two points are what a path is for */
             continue;
         if (!(dice_throw(dice) * strong < left))
-            return 1;
+            return;
         for (uint32_t k = 0; k < t->bands; k++)
             through[k] *= strong / left;
     }
@@ -69,7 +70,7 @@ static int trace_path(const struct dim_faces *d, uint32_t face, double x[3], str
 /* DIM_BLOCK paths of a polygon, from number `first` on. */
 struct block {
     uint32_t polygon;
-    uint64_t first, rays, blind;
+    uint64_t first, rays, sighted;
     double sum[3], all, square;
 };
 
@@ -84,14 +85,13 @@ static void trace_block(const struct dim_faces *d, struct block *b)
         double x[3], h[3] = {0, 0, 0}, all = 0;
         uint32_t face = d->face[p->from + running_sums_find(until, p->to - p->from, w * p->area)];
         tracer_point(t, face, u, v, x);
-        const int met = trace_path(d, face, x, &dice, h, &b->rays);
+        trace_path(d, face, x, &dice, h, &b->rays, &b->sighted);
         for (uint32_t k = 0; k < t->bands; k++) {
             b->sum[k] += h[k];
             all += t->reflectance[(size_t)face * t->bands + k] * h[k];
         }
         b->all += all;
         b->square += all * all;
-        b->blind += !met && !(all > 0);
     }
 }
 
@@ -134,7 +134,7 @@ int dim_paths_trace(struct dim_faces *d)
         *d->rays += block[i].rays;
         for (uint32_t k = 0; k < d->tracer->bands; k++)
             p->sum[k] += block[i].sum[k];
-        p->blind += block[i].blind;
+        p->sighted += block[i].sighted;
         p->all += block[i].all;
         p->square += block[i].square;
     }

@@ -21,7 +21,7 @@ struct dim_polygon {
     int planned;       /* 1: is to reach DIM_GOAL */
     uint64_t looked;   /* paths of a first look */
     uint64_t paths, wanted, rays;
-    uint64_t blind;     /* paths that met no front and found no light */
+    uint64_t sighted;   /* paths that met a front */
     double sum[3];      /* over paths: of what they find, H (W/m2); */
     double all, square; /* of rho H, all bands, and of its square */
     /* by particles that are split (dim_split.h): light, its variance, 0 before there are any, and
@@ -34,7 +34,7 @@ enum { DIM_BLIND = 256 }; /* paths: one that sees so often nothing at all is dar
 /* Does it see nothing, as what is turned to a wall it touches, or to the void? */
 static inline int dim_is_blind(const struct dim_polygon *p)
 {
-    return p->paths >= DIM_BLIND && p->blind == p->paths;
+    return p->paths >= DIM_BLIND && p->sighted == 0 && !(p->all > 0);
 }
 
 /* Which polygons: those above DIM_LARGE of the area, or the others. */

@@ -4,6 +4,7 @@
 #define KERNEL_SEGMENTS_H
 
 #include "discussion.h"
+#include "kernel/hash.h"
 
 /* Move both ends off the surfaces they are on, whose normals are n and m, as far as rays start. */
 static inline void segment_clear(struct segment *g, const double n[3], const double m[3],
@@ -48,6 +49,16 @@ static inline void segments_cast(const struct host *host, int count, const struc
         if (!(blocked >> i & 1))
             *seen += weight[i];
     }
+}
+
+/* The same for `few` of them, chosen by a number that the hash gives, where so many were made. */
+static inline void segments_cast_few(const struct host *host, int made, int few, uint64_t hash,
+                                     struct segment *segments, double *weight, double *seen,
+                                     double *all)
+{
+    if (few < made)
+        segments_choose(made, few, segments, weight, hash_unit(hash + HASH_STEP));
+    segments_cast(host, few < made ? few : made, segments, weight, seen, all);
 }
 
 #endif

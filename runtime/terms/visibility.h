@@ -77,11 +77,7 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
         sobol_points(&net, first, batch, samples.digit);
         samples_make(&samples, &ends, batch);
         samples_segments(&samples, batch, segments);
-        if (count < points) {
-            segments_choose(batch, count, segments, samples.weight, hash_unit(hash + HASH_STEP));
-            batch = count;
-        }
-        segments_cast(host, batch, segments, samples.weight, &seen, &all);
+        segments_cast_few(host, batch, count, hash, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

@@ -27,11 +27,7 @@ static inline double cluster_cast(const struct cluster_ends *p, const struct hos
     double seen = 0, whole = 0;
     if (n == 0)
         return 0;
-    if (count == 1) {
-        segments_choose(n, 1, segments, weight, hash_unit(p->hash + HASH_STEP));
-        n = 1;
-    }
-    segments_cast(host, n, segments, weight, &seen, &whole);
+    segments_cast_few(host, n, count, p->hash, segments, weight, &seen, &whole);
     return whole > 0 ? seen / whole : 0;
 }
 

@@ -75,11 +75,7 @@ OUTLINE double light_visibility_rays(const struct element *r, const struct eleme
             samples.to[0][i] = samples.to[1][i] = samples.to[2][i] = 0;
         samples_make(&samples, &ends, batch);
         samples_segments(&samples, batch, segments);
-        if (count < points) {
-            segments_choose(batch, count, segments, samples.weight, hash_unit(hash + HASH_STEP));
-            batch = count;
-        }
-        segments_cast(host, batch, segments, samples.weight, &seen, &all);
+        segments_cast_few(host, batch, count, hash, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

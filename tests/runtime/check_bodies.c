@@ -18,23 +18,6 @@ static double chance(uint64_t *state)
     return (double)(hash64(++*state) >> 11) * 0x1p-53;
 }
 
-/* Along u, v and w from a corner: a box; without its first `missing` faces. */
-static void add_box(struct scene *s, const double at[3], const double (*along)[3], int missing)
-{
-    static const int corners[6][4] = {{4, 5, 7, 6}, {0, 2, 3, 1}, {0, 4, 6, 2},
-                                      {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}};
-    for (int f = missing; f < 6; f++) {
-        double p[4][3];
-        for (int i = 0; i < 4; i++)
-            for (int k = 0; k < 3; k++) {
-                p[i][k] = at[k];
-                for (int axis = 0; axis < 3; axis++)
-                    p[i][k] += corners[f][i] >> axis & 1 ? along[axis][k] : 0;
-            }
-        made_face(s, 0, 4, (const double(*)[3])p);
-    }
-}
-
 /* The corner of a box. */
 static void add_tetrahedron(struct scene *s, const double at[3], const double (*along)[3])
 {
@@ -145,7 +128,7 @@ START_TEST(test_chance)
             if (body % 2)
                 add_tetrahedron(&s, at, (const double(*)[3])edges);
             else
-                add_box(&s, at, (const double(*)[3])edges, 0);
+                made_box(&s, 0, at, (const double(*)[3])edges, 0);
         }
         open_tree(&t, &s);
         for (int i = 0; i < 40; i++) {
@@ -176,11 +159,11 @@ START_TEST(test_in_rows)
     for (int i = 0; i < 6; i++) {
         const double along[3][3] = {{0.25, 0, 0}, {0, 0.25 - 0.01 * i, 0}, {0, 0, 0.25 + 0.01 * i}};
         const double at[3] = {0.25 * (i % 3), 0.25 * (i / 3 + i % 2), i == 4 ? 0.8 : 0.25};
-        add_box(&s, at, along, 0);
+        made_box(&s, 0, at, along, 0);
         if (i == 1) {
             const double over[3] = {at[0], at[1], 0.51},
                          on_it[3][3] = {{0.125, 0, 0}, {0, 0.125, 0}, {0, 0, 0.125}};
-            add_box(&s, over, on_it, 0);
+            made_box(&s, 0, over, on_it, 0);
         }
     }
     open_tree(&t, &s);
@@ -212,7 +195,7 @@ START_TEST(test_in_line)
     double x[33][3];
     open_squares(&s);
     for (int i = 0; i < 2; i++)
-        add_box(&s, at[i], along[i], 0);
+        made_box(&s, 0, at[i], along[i], 0);
     open_tree(&t, &s);
     for (int i = 0; i < 33; i++) { /* raised, in the plane of two edges on the left or the right */
         x[i][0] = t.host.ray_offset / (i % 2 + 1);
@@ -228,7 +211,7 @@ START_TEST(test_in_line)
         chance_edges(&state, 0.15, edges);
         for (int k = 0; k < 3; k++)
             corner[k] = 0.4 + 0.2 * chance(&state);
-        add_box(&s, corner, (const double(*)[3])edges, 0);
+        made_box(&s, 0, corner, (const double(*)[3])edges, 0);
         open_tree(&t, &s);
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < 3; k++)
@@ -263,7 +246,7 @@ START_TEST(test_lattice)
                 at[k] = from / 9.0;
                 along[k][k] = (1 + (int)((10 - from) * chance(&state))) / 9.0;
             }
-            add_box(&s, at, (const double(*)[3])along, 0);
+            made_box(&s, 0, at, (const double(*)[3])along, 0);
         }
         open_tree(&t, &s);
         for (uint32_t f = 2; f < s.face_count; f++) /* not so where two share an edge */
@@ -301,8 +284,8 @@ START_TEST(test_turned)
         struct exchange_tree t;
         double x[40][3];
         open_squares(&s);
-        add_box(&s, at[0], along, 0);
-        add_box(&s, other, turned, 0);
+        made_box(&s, 0, at[0], along, 0);
+        made_box(&s, 0, other, turned, 0);
         open_tree(&t, &s);
         for (int i = 0; i < 40; i++) {
             x[i][0] = chance(&state);
@@ -329,7 +312,7 @@ START_TEST(test_within)
     struct exchange_tree t;
     struct seen seen = {0};
     open_squares(&s);
-    add_box(&s, at, along, 0);
+    made_box(&s, 0, at, along, 0);
     open_tree(&t, &s);
     look(&t, s.face_count, x, 1, 1, &seen);
     ck_assert_double_lt(seen.most, 1e-9);
@@ -344,7 +327,7 @@ static void open_box_between(struct scene *s, struct exchange_tree *t)
     static const double at[3] = {0.4, 0.4, 0.4},
                         along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
     open_squares(s);
-    add_box(s, at, along, 0);
+    made_box(s, 0, at, along, 0);
     open_tree(t, s);
 }
 
@@ -517,12 +500,12 @@ START_TEST(test_which)
     struct scene s;
     struct exchange_tree t;
     open_squares(&s);
-    add_box(&s, at[0], along, 0);
+    made_box(&s, 0, at[0], along, 0);
     add_octahedron(&s, middle[0], 0.1, 0.1);
-    add_box(&s, at[1], along, 1);
-    add_box(&s, at[2], inside_out, 0);
-    add_box(&s, at[3], along, 0);
-    add_box(&s, at[4], along, 0);
+    made_box(&s, 0, at[1], along, 1);
+    made_box(&s, 0, at[2], inside_out, 0);
+    made_box(&s, 0, at[3], along, 0);
+    made_box(&s, 0, at[4], along, 0);
     made_quad(&s, 0, 0.3, 0.3, 0.9, 0.1, 0, 0, 0, 0.1, 0);
     made_quad(&s, 0, 0.3, 0.3, 0.9, 0, 0.1, 0, 0.1, 0, 0);
     add_octahedron(&s, middle[1], 0.1, -0.05);

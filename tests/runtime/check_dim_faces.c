@@ -103,21 +103,12 @@ START_TEST(test_found)
 }
 END_TEST
 
-/* A box of .3 at (x, 1/2, z). */
-static void add_box(struct scene *scene, uint32_t material, double x, double z)
-{
-    made_quad(scene, material, x, 0.5, z, 0, 0.3, 0, 0.3, 0, 0);
-    made_quad(scene, material, x, 0.5, z, 0, 0, 0.3, 0, 0.3, 0);
-    made_quad(scene, material, x, 0.5, z, 0.3, 0, 0, 0, 0, 0.3);
-    made_quad(scene, material, x, 0.5, z + 0.3, 0.3, 0, 0, 0, 0.3, 0);
-    made_quad(scene, material, x + 0.3, 0.5, z, 0, 0.3, 0, 0, 0, 0.3);
-    made_quad(scene, material, x, 0.8, z, 0, 0, 0.3, 0.3, 0, 0);
-}
-
 /* A box against a wall, another one and a third on that: what touches floor or wall sees nothing,
  * and that is known; the two faces where boxes meet are not asked. */
 START_TEST(test_stood_on)
 {
+    static const double at[3][3] = {{0, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 0.3}},
+                        along[3][3] = {{0.3, 0, 0}, {0, 0.3, 0}, {0, 0, 0.3}};
     struct scene scene;
     struct solve s;
     struct measured_error alone;
@@ -125,9 +116,8 @@ START_TEST(test_stood_on)
     const uint32_t wall = made_material(&scene, RHO, 0), lamp = made_material(&scene, RHO, 1);
     const uint32_t walls[6] = {wall, wall, wall, wall, wall, lamp};
     made_room(&scene, walls, 1, 1, 1);
-    add_box(&scene, wall, 0, 0);
-    add_box(&scene, wall, 0.5, 0);
-    add_box(&scene, wall, 0.5, 0.3);
+    for (int i = 0; i < 3; i++)
+        made_box(&scene, wall, at[i], along, 0);
     solve_with(&s, &scene, "bf", RELEASE_FLAT, NULL, quick(2));
     mend_all(&s, 1e-4, 450000, &alone);
     ck_assert_uint_eq(alone.dim.large, 6 + 6 + 5 + 5);

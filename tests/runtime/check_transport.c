@@ -74,15 +74,21 @@ static void open_solve(struct solve *s, const struct scene *scene, const struct 
     ck_assert_int_eq(solve_refine(s, refiner, &cause), 0);
 }
 
+static void run_refiner(struct solve *s, const struct scene *scene, const struct refiner *refiner,
+                        struct solve_options how)
+{
+    const char *cause;
+    ck_assert_int_eq(solve_open(s, scene, &how, &cause), 0);
+    ck_assert_int_eq(solve_run(s, refiner, &cause), 0);
+    ck_assert_int_eq(s->report.converged, 1);
+    ck_assert_uint_eq(s->report.changing, 0);
+}
+
 static void run_solve(struct solve *s, const struct scene *scene, const struct script *script,
                       struct solve_options how)
 {
-    struct refiner refiner = scripted(script);
-    const char *cause;
-    ck_assert_int_eq(solve_open(s, scene, &how, &cause), 0);
-    ck_assert_int_eq(solve_run(s, &refiner, &cause), 0);
-    ck_assert_int_eq(s->report.converged, 1);
-    ck_assert_uint_eq(s->report.changing, 0);
+    const struct refiner refiner = scripted(script);
+    run_refiner(s, scene, &refiner, how);
 }
 
 static double face_value(const struct solve *s, uint32_t face)
@@ -162,10 +168,8 @@ static enum decision under_group(const void *state, struct discussion *d)
 
 static double light_from_group(enum RadSolver solver, double lamp)
 {
-    struct refiner refiner = {
+    const struct refiner refiner = {
         .refine = under_group, .state = &lamp, .oracle = "scripted", .release = "hand"};
-    struct solve_options how = options(1e-9, solver);
-    const char *cause;
     struct scene scene;
     made_open(&scene);
     add_square(&scene, 2, 0.5, 0);
@@ -174,8 +178,7 @@ static double light_from_group(enum RadSolver solver, double lamp)
     for (int i = 0; i < 4; i++)
         made_quad(&scene, shines, 1 - 4.0 * (i / 2), 1 - 4.0 * (i % 2), 2, 0, 4, 0, 4, 0, 0);
     struct solve s;
-    ck_assert_int_eq(solve_open(&s, &scene, &how, &cause), 0);
-    ck_assert_int_eq(solve_run(&s, &refiner, &cause), 0);
+    run_refiner(&s, &scene, &refiner, options(1e-9, solver));
     const double light = 2 * face_value(&s, 0);
     solve_close(&s);
     made_close(&scene);
@@ -210,6 +213,7 @@ static double above_and_split(const struct element *r, const struct element *e)
 static void stand_box(enum RadSolver solver, int linear)
 {
     static const struct script script = {split_for_lamp, above_and_split, 0};
+    static const double along[3][3] = {{1, 0, 0}, {0, 0.5, 0}, {0, 0, 1}};
     struct solve_options how = options(1e-9, solver);
     const double row = 0.25 / 0.875, expected = 0.5 * row * 1024 / (1 - 0.5 * row * 0.5 * 0.25);
     double power = 0;
@@ -221,12 +225,7 @@ static void stand_box(enum RadSolver solver, int linear)
     add_square(&scene, 2, 0, 0);
     add_square(&scene, 2, 0.5, 1024);
     uint32_t black = made_material(&scene, 0, 0);
-    made_quad(&scene, black, 0, 0, 0, 0, 0.5, 0, 1, 0, 0); /* bottom, top, front, back, sides */
-    made_quad(&scene, black, 0, 0, 1, 1, 0, 0, 0, 0.5, 0);
-    made_quad(&scene, black, 0, 0, 0, 1, 0, 0, 0, 0, 1);
-    made_quad(&scene, black, 0, 0.5, 0, 0, 0, 1, 1, 0, 0);
-    made_quad(&scene, black, 0, 0, 0, 0, 0, 1, 0, 0.5, 0);
-    made_quad(&scene, black, 1, 0, 0, 0, 0.5, 0, 0, 0, 1);
+    made_box(&scene, black, (const double[3]){0, 0, 0}, along, 0);
     struct solve s;
     run_solve(&s, &scene, &script, how);
     if (solver == RAD_SOLVER_LU) /* one to see that nothing changes */

@@ -70,6 +70,24 @@ static inline void made_room(struct scene *s, const uint32_t material[6], double
     made_quad(s, material[5], x, 0, 0, 0, 0, z, 0, y, 0);
 }
 
+/* A box along u, v and w from a corner, its front outside; without its first `missing` faces. */
+static inline void made_box(struct scene *s, uint32_t material, const double at[3],
+                            const double (*along)[3], int missing)
+{
+    static const int corners[6][4] = {{4, 5, 7, 6}, {0, 2, 3, 1}, {0, 4, 6, 2},
+                                      {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}};
+    for (int f = missing; f < 6; f++) {
+        double p[4][3];
+        for (int i = 0; i < 4; i++)
+            for (int k = 0; k < 3; k++) {
+                p[i][k] = at[k];
+                for (int axis = 0; axis < 3; axis++)
+                    p[i][k] += corners[f][i] >> axis & 1 ? along[axis][k] : 0;
+            }
+        made_face(s, material, 4, (const double(*)[3])p);
+    }
+}
+
 /* Tile i of tiles x tiles on one of six faces of a unit cube with its least corner at `corner`:
  * face 2 k is across axis k there, 2 k + 1 on the far side. inside: 1: it is seen from inside. */
 static inline void made_tile(struct scene *s, uint32_t material, double corner, int face, int i,
