@@ -141,7 +141,7 @@ int radCommitScene(RadScene scene)
                     scene->device->threads, &error)
         < 0)
         return api_fail(scene->device, error.code, "%s", error.text);
-    if (lit_faces_find(&scene->scene, scene->device->threads, &cause) < 0) {
+    if (lit_faces_find(&scene->scene, scene->device->ranks, scene->device->threads, &cause) < 0) {
         scene_free(&scene->scene);
         return api_fail(scene->device, api_cause(cause), "%s", cause);
     }

@@ -32,8 +32,8 @@ static int find_brightest(const struct scene *scene, double *brightest)
 }
 
 /* dark: [face_count]. Returns 0, or -1 with *cause set. */
-static int find_dark(const struct scene *scene, const double *brightest, int threads, uint8_t *dark,
-                     const char **cause)
+static int find_dark(const struct scene *scene, const double *brightest, struct ranks *ranks,
+                     int threads, uint8_t *dark, const char **cause)
 {
     struct hierarchy h;
     int result = -1;
@@ -42,7 +42,7 @@ static int find_dark(const struct scene *scene, const double *brightest, int thr
     struct rays *rays = rays_open(&h, brightest, brightest, threads, cause);
     if (rays) {
         *cause = "out of memory";
-        result = dark_sides_find(rays, &h, brightest, scene->precision, threads, dark);
+        result = dark_sides_find(rays, &h, brightest, scene->precision, ranks, threads, dark);
     }
     rays_close(rays);
     hierarchy_free(&h);
@@ -62,7 +62,7 @@ static void mark(struct face *faces, uint32_t count, const uint8_t *dark)
     }
 }
 
-int lit_faces_find(struct scene *scene, int threads, const char **cause)
+int lit_faces_find(struct scene *scene, struct ranks *ranks, int threads, const char **cause)
 {
     if (!has_far_sides(scene))
         return 0;
@@ -73,7 +73,7 @@ int lit_faces_find(struct scene *scene, int threads, const char **cause)
     *cause = "out of memory";
     if (brightest && dark)
         result = find_brightest(scene, brightest)
-                     ? find_dark(scene, brightest, threads, dark, cause)
+                     ? find_dark(scene, brightest, ranks, threads, dark, cause)
                      : 0;
     if (result == 0 && memchr(dark, 1, count)) {
         scene->lit = malloc(count * sizeof *scene->lit);

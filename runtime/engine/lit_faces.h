@@ -4,9 +4,10 @@
 #define LIT_FACES_H
 
 #include "hierarchy/scene.h"
+#include "util/ranks.h"
 
-/* Set scene->lit, where anything is dark, on so many threads. Returns 0, or -1 with *cause set (a
- * constant string). */
-int lit_faces_find(struct scene *scene, int threads, const char **cause);
+/* Set scene->lit, where anything is dark, on so many threads of each rank. Returns 0, or -1 with
+ * *cause set (a constant string). */
+int lit_faces_find(struct scene *scene, struct ranks *ranks, int threads, const char **cause);
 
 #endif

@@ -60,6 +60,7 @@ struct axis {
     size_t shared;
     struct hemisphere across;
     double along[3], length, touch; /* m; nearer than that is the same place */
+    double low[3], high[3];         /* box of what is nearer than touch (m) */
 };
 
 uint32_t sides_space(struct sides *s, uint32_t side)
@@ -134,8 +135,11 @@ static int axis_of(struct axis *x, const struct hierarchy *h, const struct edge 
     x->length = length3(x->along);
     if (!(x->length > 0))
         return 0;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         x->along[k] /= x->length;
+        x->low[k] = fmin(edge->end[0][k], edge->end[1][k]) - x->touch;
+        x->high[k] = fmax(edge->end[0][k], edge->end[1][k]) + x->touch;
+    }
     x->across = hemisphere_over(x->along);
     return 1;
 }
@@ -216,6 +220,11 @@ static double inside_border(const struct element *e, int i, const double p[3])
     return length > 0 ? height3(p, e->vertex[i], in) / length : INFINITY;
 }
 
+static int is_long(const struct axis *x, const struct stretch *s)
+{
+    return (s->to - s->from) * x->length > 4 * x->touch;
+}
+
 /* The part of the edge that is nearer than touch to a face. Returns 0 where that is no more than
  * where it passes through. */
 static int touches(const struct axis *x, uint32_t face, struct stretch *s)
@@ -227,10 +236,10 @@ static int touches(const struct axis *x, uint32_t face, struct stretch *s)
     *s = (struct stretch){0, 1, face};
     cut_stretch(s, low + x->touch, high + x->touch);
     cut_stretch(s, x->touch - low, x->touch - high);
-    for (int i = 0; i < e->vertices; i++)
+    for (int i = 0; i < e->vertices && is_long(x, s); i++)
         cut_stretch(s, inside_border(e, i, end[0]) + x->touch,
                     inside_border(e, i, end[1]) + x->touch);
-    return (s->to - s->from) * x->length > 4 * x->touch;
+    return is_long(x, s);
 }
 
 /* Collect the stretches of the edge that faces below an element touch. Returns how many there are
@@ -244,8 +253,7 @@ static int collect(const struct axis *x, uint32_t index, struct stretch *list, i
         return count;
     }
     for (int k = 0; k < 3; k++)
-        if (e->vertex[0][k] > fmax(x->edge->end[0][k], x->edge->end[1][k]) + x->touch
-            || e->vertex[1][k] < fmin(x->edge->end[0][k], x->edge->end[1][k]) - x->touch)
+        if (e->vertex[0][k] > x->high[k] || e->vertex[1][k] < x->low[k])
             return count;
     for (uint32_t c = 0; c < e->children; c++)
         count = collect(x, e->child + c, list, count);
@@ -340,7 +348,8 @@ struct walk {
     double precision;
     const struct edge *edges; /* [count] */
     size_t count;
-    struct pairs *pairs; /* [run] */
+    size_t first;        /* of those that are walked here */
+    struct pairs *pairs; /* [run] of these */
     atomic_int *failed;
 };
 
@@ -348,7 +357,7 @@ struct walk {
 static void walk_edges(const void *walk, size_t from, size_t to)
 {
     const struct walk *w = walk;
-    for (size_t i = from; i < to; i++) {
+    for (size_t i = w->first + from; i < w->first + to; i++) {
         struct axis x;
         size_t shared = 1;
         if (i > 0 && same_edge(&w->edges[i - 1], &w->edges[i]))
@@ -361,35 +370,103 @@ static void walk_edges(const void *walk, size_t from, size_t to)
     }
 }
 
-int sides_open(struct sides *s, const struct hierarchy *h, double precision, int threads)
+/* What runs have found, one after the other. Returns 0, or -1 when out of memory. */
+static int add_runs(struct pairs *all, struct pairs *run, size_t runs)
+{
+    size_t count = 0;
+    for (size_t r = 0; r < runs; r++)
+        count += run[r].count;
+    if (array_reserve(&all->sides, count + 1, &all->capacity, sizeof *all->sides) < 0)
+        return -1;
+    for (size_t r = 0; r < runs; r++) {
+        if (run[r].count > 0)
+            memcpy(all->sides + all->count, run[r].sides, run[r].count * sizeof *all->sides);
+        all->count += run[r].count;
+    }
+    return 0;
+}
+
+/* What each rank has found, to all. Returns 0, or -1 on all when any is out of memory. */
+static int share_pairs(struct sides *s, struct pairs *mine, struct ranks *ranks)
+{
+    const size_t n = (size_t)ranks_count(ranks), me = (size_t)ranks_number(ranks);
+    size_t *first = malloc((n + 1) * sizeof *first);
+    uint64_t *touched = malloc((s->far + (size_t)1) * sizeof *touched);
+    uint32_t(*all)[2] = NULL;
+    int failed = ranks_any(ranks, !first || !touched);
+    if (!failed) {
+        ranks_starts(ranks, RANKS_PAIRS, mine->count, first);
+        all = malloc((first[n] + 1) * sizeof *all);
+        failed = ranks_any(ranks, !all);
+    }
+    if (!failed) {
+        if (mine->count > 0)
+            memcpy(all + first[me], mine->sides, mine->count * sizeof *all);
+        ranks_complete(ranks, RANKS_PAIRS, all, sizeof *all, first);
+        free(mine->sides);
+        *mine = (struct pairs){all, first[n], first[n]};
+        for (uint32_t i = 0; i < s->far; i++)
+            touched[i] = s->touched[i];
+        ranks_add_counts(ranks, RANKS_PAIRS, touched, s->far);
+        for (uint32_t i = 0; i < s->far; i++)
+            s->touched[i] = touched[i] > 0;
+    } else {
+        free(all);
+    }
+    free(touched);
+    free(first);
+    return failed ? -1 : 0;
+}
+
+/* The pairs of all edges; each rank looks at its part of the runs. Returns 0, or -1 when out of
+ * memory. */
+static int find_pairs(struct sides *s, const struct hierarchy *h, double precision,
+                      struct ranks *ranks, int threads, struct pairs *found)
 {
     atomic_int failed = 0;
     struct edge *edges = malloc((4 * (size_t)h->face_count + 1) * sizeof *edges);
-    struct pairs *pairs = calloc(4 * (size_t)h->face_count / RUN + 1, sizeof *pairs);
+    if (edges) {
+        const size_t count = list_edges(h, edges), all = (count + RUN - 1) / RUN;
+        const int me = ranks_number(ranks);
+        const size_t first = ranks_part(ranks, all, me) * RUN,
+                     past = ranks_part(ranks, all, me + 1) * RUN,
+                     mine = (past < count ? past : count) - (first < count ? first : count),
+                     runs = (mine + RUN - 1) / RUN;
+        struct pairs *run = calloc(runs + 1, sizeof *run);
+        qsort(edges, count, sizeof *edges, compare_edges);
+        const struct walk walk = {h, s, precision, edges, count, first, run, &failed};
+        if (run)
+            thread_pool_run(threads, mine, RUN, walk_edges, &walk);
+        if (!run || add_runs(found, run, runs) < 0)
+            failed = 1;
+        for (size_t r = 0; run && r < runs; r++)
+            free(run[r].sides);
+        free(run);
+    } else {
+        failed = 1;
+    }
+    free(edges);
+    if (ranks_any(ranks, failed))
+        return -1;
+    return ranks_count(ranks) > 1 ? share_pairs(s, found, ranks) : 0;
+}
+
+int sides_open(struct sides *s, const struct hierarchy *h, double precision, struct ranks *ranks,
+               int threads)
+{
+    struct pairs found = {0};
     *s = (struct sides){.far = 2 * h->face_count};
     s->up = malloc(((size_t)s->far + 1) * sizeof *s->up);
     s->touched = calloc((size_t)s->far + 1, 1);
-    if (!edges || !pairs || !s->up || !s->touched) {
-        free(edges);
-        free(pairs);
-        return -1;
-    }
-    for (uint32_t i = 0; i <= s->far; i++)
+    const int failed = ranks_any(ranks, !s->up || !s->touched)
+                       || find_pairs(s, h, precision, ranks, threads, &found) < 0;
+    for (uint32_t i = 0; i <= s->far && !failed; i++)
         s->up[i] = i;
-    const size_t count = list_edges(h, edges);
-    qsort(edges, count, sizeof *edges, compare_edges);
-    const struct walk walk = {h, s, precision, edges, count, pairs, &failed};
-    thread_pool_run(threads, count, RUN, walk_edges, &walk);
-    for (size_t run = 0; run * RUN < count; run++) {
-        const struct pairs *p = &pairs[run];
-        /* of a side that bounds several spaces nobody knows which one this is */
-        for (size_t i = 0; i < p->count; i++)
-            if (!s->touched[p->sides[i][0]] && !s->touched[p->sides[i][1]])
-                sides_join(s, p->sides[i][0], p->sides[i][1]);
-        free(p->sides);
-    }
-    free(pairs);
-    free(edges);
+    /* of a side that bounds several spaces nobody knows which one this is */
+    for (size_t i = 0; i < found.count && !failed; i++)
+        if (!s->touched[found.sides[i][0]] && !s->touched[found.sides[i][1]])
+            sides_join(s, found.sides[i][0], found.sides[i][1]);
+    free(found.sides);
     return failed ? -1 : 0;
 }
 

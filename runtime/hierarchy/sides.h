@@ -4,6 +4,7 @@
 #define SIDES_H
 
 #include "hierarchy/hierarchy.h"
+#include "util/ranks.h"
 
 /* Of a face that is not itself a far side: 2 f its front, 2 f + 1 what lies behind it. The side
  * `far` has no face: it is what rays that leave the scene get to. */
@@ -16,8 +17,10 @@ struct sides {
 };
 
 /* Of a hierarchy without groups, on so many threads; precision: of coordinates, relative (scene.h).
- * Returns 0, or -1 when out of memory; close is fine then too. */
-int sides_open(struct sides *sides, const struct hierarchy *h, double precision, int threads);
+ * Of several ranks each looks at its part of the edges, and all have what all have found. Returns
+ * 0, or -1 on all when any is out of memory; close is fine then too. */
+int sides_open(struct sides *sides, const struct hierarchy *h, double precision,
+               struct ranks *ranks, int threads);
 void sides_close(struct sides *sides);
 
 /* What stands for the space that a side bounds. */

@@ -46,19 +46,30 @@ static void add(_Atomic int64_t *count, int64_t w)
     atomic_store_explicit(count, before + w, memory_order_relaxed);
 }
 
+enum { TOGETHER = 64 }; /* letters that wait for memory side by side */
+
 /* Count what came, as it was packed. */
 static void count_packed(struct tally *tally, const uint32_t *from, size_t count)
 {
     const uint32_t mask = (1u << COUNT_BITS) - 1, bands = tally->bands;
-    for (size_t i = 0; i < count; i++, from += words(tally)) {
-        const size_t place =
-                         tally->element ? tally->leaf_place[from[0]] : tally_place(tally, from[0]),
-                     at = (size_t)(from[1] >> COUNT_BITS) * tally->held + place;
-        for (uint32_t k = 0; k < bands; k++) {
-            const int64_t w = from[1 + k] & mask;
-            add(&tally->face[at * bands + k], w);
-            if (tally->element)
-                add(&tally->element[(size_t)from[0] * bands + k], w);
+    for (size_t i = 0; i < count; i += TOGETHER) {
+        const size_t n = count - i < TOGETHER ? count - i : TOGETHER;
+        size_t place[TOGETHER];
+        for (size_t j = 0; j < n; j++) {
+            const uint32_t *letter = &from[(i + j) * words(tally)];
+            place[j] =
+                tally->element ? tally->leaf_place[letter[0]] : tally_place(tally, letter[0]);
+            tally_prefetch(tally, (int)(letter[1] >> COUNT_BITS), place[j], letter[0]);
+        }
+        for (size_t j = 0; j < n; j++) {
+            const uint32_t *letter = &from[(i + j) * words(tally)];
+            const size_t at = (size_t)(letter[1] >> COUNT_BITS) * tally->held + place[j];
+            for (uint32_t k = 0; k < bands; k++) {
+                const int64_t w = letter[1 + k] & mask;
+                add(&tally->face[at * bands + k], w);
+                if (tally->element)
+                    add(&tally->element[(size_t)letter[0] * bands + k], w);
+            }
         }
     }
 }

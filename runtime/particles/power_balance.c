@@ -35,25 +35,25 @@ static void add_faces(const void *balancing, size_t from, size_t to)
     const struct balancing *x = balancing;
     const struct tally *tally = x->tally;
     const double unit = tally_unit(tally); /* corrections are still 0 */
-    for (size_t r = from; r < to; r++)
-        for (uint32_t k = 0; k < tally->bands; k++) {
-            /* in sums of its own: a line of memory that two threads write is slow */
-            double reflected = 0, ended = 0;
-            for (uint32_t f = 0; f < tally->faces; f++) {
-                if (!tally_holds(tally, f))
-                    continue;
-                const double
-                    rho = x->t->reflectance[(size_t)f * tally->bands + k],
-                    power =
-                        unit
-                        * (double)tally
-                              ->face[(r * tally->held + tally_place(tally, f)) * tally->bands + k];
-                reflected += rho * power;
-                ended += (1 - rho) * power;
+    for (size_t r = from; r < to; r++) {
+        /* in sums of its own: a line of memory that two threads write is slow */
+        double reflected[3] = {0}, ended[3] = {0};
+        for (uint32_t f = 0; f < tally->faces; f++) {
+            if (!tally_holds(tally, f))
+                continue;
+            const size_t at = (r * tally->held + tally_place(tally, f)) * tally->bands;
+            for (uint32_t k = 0; k < tally->bands; k++) {
+                const double rho = x->t->reflectance[(size_t)f * tally->bands + k],
+                             power = unit * (double)tally->face[at + k];
+                reflected[k] += rho * power;
+                ended[k] += (1 - rho) * power;
             }
-            x->balance[k].reflected[r] = reflected;
-            x->balance[k].ended[r] = ended + tally_unit(tally) * (double)tally->lost[r][k];
         }
+        for (uint32_t k = 0; k < tally->bands; k++) {
+            x->balance[k].reflected[r] = reflected[k];
+            x->balance[k].ended[r] = ended[k] + unit * (double)tally->lost[r][k];
+        }
+    }
 }
 
 /* and what they were sent out with. */

@@ -154,11 +154,11 @@ static void mark_dark(struct search *s, uint8_t *dark)
 }
 
 int dark_sides_find(const struct rays *rays, const struct hierarchy *h, const double *exitance,
-                    double precision, int threads, uint8_t *dark)
+                    double precision, struct ranks *ranks, int threads, uint8_t *dark)
 {
     struct search s = {.rays = rays, .h = h, .exitance = exitance, .lit = UINT32_MAX};
     memset(dark, 0, h->face_count);
-    if (sides_open(&s.sides, h, precision, threads) < 0) {
+    if (sides_open(&s.sides, h, precision, ranks, threads) < 0) {
         sides_close(&s.sides);
         return -1;
     }

@@ -103,7 +103,7 @@ static void make(struct scene *scene)
     const char *cause;
     ck_assert_msg(scene_build(scene, &polygons, materials, MATERIALS, 1, &error) == 0, "%s",
                   error.text);
-    ck_assert_int_eq(lit_faces_find(scene, 1, &cause), 0);
+    ck_assert_int_eq(lit_faces_find(scene, NULL, 1, &cause), 0);
 }
 
 /* How much of a side of a polygon is dark. */

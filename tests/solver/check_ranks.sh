@@ -60,6 +60,27 @@ compare_ranks "$scenes/cornell.obj" 1 2 3 4
 compare_ranks "$scenes/room.obj" 2
 how="--scale none" compare_ranks "$scenes/room.obj" 3
 compare_ranks "$top/tests/runtime/sky_room.obj" 3 # by paths
+# a hundred boxes whose lids stop short by a slit: that light comes in is told by edges, of which each rank looks at a part
+awk 'BEGIN {
+    print "usemtl wall"; box(-1, -1, 0, 11, 11, 3, 0, 1)
+    print "usemtl lamp"; side("4 6 2.9", "6 6 2.9", "6 4 2.9", "4 4 2.9", 1)
+    print "usemtl wall_2s"
+    for (i = 0; i < 100; i++) box(i % 10, int(i / 10), .1, i % 10 + .5, int(i / 10) + .5, .4, 5e-5, 0)
+}
+function box(x, y, z, X, Y, Z, slit, within) { # seen from within, or from outside
+    side(x " " y " " z, x " " Y " " z, X " " Y " " z, X " " y " " z, within)
+    side(x " " y " " Z, X - slit " " y " " Z, X - slit " " Y " " Z, x " " Y " " Z, within)
+    side(x " " y " " z, X " " y " " z, X " " y " " Z, x " " y " " Z, within)
+    side(X " " y " " z, X " " Y " " z, X " " Y " " Z, X " " y " " Z, within)
+    side(X " " Y " " z, x " " Y " " z, x " " Y " " Z, X " " Y " " Z, within)
+    side(x " " Y " " z, x " " y " " z, x " " y " " Z, x " " Y " " Z, within)
+}
+function side(a, b, c, d, within) {
+    printf "v %s\nv %s\nv %s\nv %s\nf -4 -3 -2 -1\n", within ? d : a, within ? c : b, within ? b : c, within ? a : d
+}' >boxes.obj
+sed -i '1i mtllib boxes.mtl' boxes.obj
+printf 'newmtl wall\nKd .5 .5 .5\nnewmtl wall_2s\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n' >boxes.mtl
+how="--scale 16 --no-correct" compare_ranks boxes.obj 3
 if [ -n "${THOROUGH:-}" ]; then
     compare_ranks "$scenes/room.obj" 3 4 7
     compare_ranks "$scenes/td.obj" 2 3 4
