@@ -88,16 +88,17 @@ RAD_API RadDevice radNewDevice(const struct RadDeviceOptions *options);
 /* A device over processes that work together: `communicator` is the address of an MPI_Comm, of
  * which it makes its own; MPI_Init_thread(MPI_THREAD_FUNNELED) comes before, MPI_Finalize after the
  * last release. Each process, a rank, makes the same calls with the same arguments, from one
- * thread; each of radNewSolution, radRefine, radStep, radSolve, radSolveScene, radMeasureError,
- * radMeasurePlaces, radCorrect, radNewReference, radTraceReference, radNewExchange,
- * radMultiplyExchange, radGetPointFactors, radGetRanks and radGetExchangeRanks waits for all, and
- * so does this call. Results are the same on all ranks, and the same as of one process: links,
- * counts of particles and view factors to the bit. A rank keeps the links whose receivers it has:
- * radGetLinks lends these; of exchange areas all have all. A progress function may not cancel a
- * solve. What looks at all links at once (Southwell's method, LU, error control, ranked links,
- * enclosing solutions, accounts and causes of errors, traces, statistics) is refused with
- * RAD_ERROR_UNSUPPORTED while there are several ranks. Returns NULL, and radGetDeviceError(NULL)
- * says why: RAD_ERROR_UNSUPPORTED where the library was built without MPI. */
+ * thread; each of radCommitScene, radNewSolution, radRefine, radStep, radSolve, radSolveScene,
+ * radMeasureError, radMeasurePlaces, radCorrect, radNewReference, radTraceReference,
+ * radNewExchange, radMultiplyExchange, radGetPointFactors, radGetRanks and radGetExchangeRanks
+ * waits for all, and so does this call. Results are the same on all ranks, and the same as of one
+ * process: links, counts of particles and view factors to the bit. A rank keeps the links whose
+ * receivers it has: radGetLinks lends these; of exchange areas all have all. A progress function
+ * may not cancel a solve. What looks at all links at once (Southwell's method, LU, error control,
+ * ranked links, enclosing solutions, accounts and causes of errors, traces, statistics) is refused
+ * with RAD_ERROR_UNSUPPORTED while there are several ranks. Returns NULL, and
+ * radGetDeviceError(NULL) says why: RAD_ERROR_UNSUPPORTED where the library was built without MPI.
+ */
 RAD_API RadDevice radNewDeviceMPI(const struct RadDeviceOptions *options, const void *communicator);
 RAD_API void radRetainDevice(RadDevice device);
 RAD_API void radReleaseDevice(RadDevice device);

@@ -5,62 +5,29 @@
  * both of its own: light gets around it. An edge may run through another face, as where a box
  * without a bottom stands on the floor: then nothing gets around it there, and that face bounds the
  * spaces on either side of it in parts; or along a longer edge: so the faces around it are asked
- * stretch by stretch. Edges need not be equal: what is nearer than CUT_TOUCH is at one place. What
- * is not sure is joined, so that spaces come out too large rather than too small, as where faces
- * lie on each other. [Faces in their order around an edge: radial edges, Weiler 1986; as maps:
- * Tarjan 1975]
+ * stretch by stretch (edge_axis.h). What is not sure is joined, so that spaces come out too large
+ * rather than too small, as where faces lie on each other. [Faces in their order around an edge:
+ * radial edges, Weiler 1986; as maps: Tarjan 1975]
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/sides.h"
 
-#include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "geometry.h"
+#include "hierarchy/edge_axis.h"
 #include "kernel/constants.h"
-#include "kernel/hemisphere.h"
 #include "kernel/lambert.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
 
-enum { AROUND = 64 }; /* faces that touch an edge */
-enum { RUN = 1024 };  /* edges that a thread takes at a time */
-
-/* An edge of a face, its smaller end first. */
-struct edge {
-    double end[2][3];
-    uint32_t face;
-};
-
-/* A face as it stands around an edge, by its angle: half a plane. Sides look on towards larger
- * angles, and back. */
-struct wing {
-    double angle;
-    uint32_t on, back;
-    int whole; /* of a face that the edge runs through; its sides say nothing */
-};
+enum { RUN = 1024 }; /* edges that a thread takes at a time */
 
 /* Sides that face each other across an edge. */
 struct pairs {
     uint32_t (*sides)[2]; /* [count] */
     size_t count, capacity;
-};
-
-/* A stretch of an edge that a face touches, in lengths of the edge. */
-struct stretch {
-    double from, to;
-    uint32_t face;
-};
-
-/* An edge as it is looked at; square to it are across.u and across.v. */
-struct axis {
-    const struct hierarchy *h;
-    const struct edge *edge; /* [shared]: of so many faces */
-    size_t shared;
-    struct hemisphere across;
-    double along[3], length, touch; /* m; nearer than that is the same place */
-    double low[3], high[3];         /* box of what is nearer than touch (m) */
 };
 
 uint32_t sides_space(struct sides *s, uint32_t side)
@@ -74,11 +41,6 @@ void sides_join(struct sides *s, uint32_t a, uint32_t b)
 {
     uint32_t x = sides_space(s, a), y = sides_space(s, b);
     s->up[x < y ? y : x] = x < y ? x : y;
-}
-
-static const struct element *element_of(const struct hierarchy *h, uint32_t face)
-{
-    return &h->elements[h->face_element[face]];
 }
 
 static int compare_edges(const void *a, const void *b)
@@ -121,40 +83,6 @@ static size_t list_edges(const struct hierarchy *h, struct edge *edges)
     return count;
 }
 
-/* Returns 0 when the edge is a point. */
-static int axis_of(struct axis *x, const struct hierarchy *h, const struct edge *edge,
-                   size_t shared, double precision)
-{
-    const struct element *e = element_of(h, edge->face);
-    double largest = 0;
-    for (int k = 0; k < 3; k++)
-        largest = fmax(largest, fmax(fabs(edge->end[0][k]), fabs(edge->end[1][k])));
-    *x = (struct axis){.h = h, .edge = edge, .shared = shared};
-    x->touch = fmax(CUT_TOUCH * e->radius, CUT_TOUCH_ROUNDINGS * precision * largest);
-    sub3(x->along, edge->end[1], edge->end[0]);
-    x->length = length3(x->along);
-    if (!(x->length > 0))
-        return 0;
-    for (int k = 0; k < 3; k++) {
-        x->along[k] /= x->length;
-        x->low[k] = fmin(edge->end[0][k], edge->end[1][k]) - x->touch;
-        x->high[k] = fmax(edge->end[0][k], edge->end[1][k]) + x->touch;
-    }
-    x->across = hemisphere_over(x->along);
-    return 1;
-}
-
-/* The wing of a face in this direction from the edge. */
-static struct wing wing_of(const struct axis *x, uint32_t face, const double direction[3],
-                           int whole)
-{
-    double over[3];
-    cross3(over, x->along, direction);
-    const uint32_t behind = dot3(over, element_of(x->h, face)->normal) > 0;
-    return (struct wing){atan2(dot3(direction, x->across.v), dot3(direction, x->across.u)),
-                         2 * face + 1 - behind, 2 * face + behind, whole};
-}
-
 static int compare_wings(const void *a, const void *b)
 {
     const struct wing *x = a, *y = b;
@@ -189,110 +117,19 @@ static int pair_around(struct pairs *pairs, struct wing *wings, int count)
     return failed ? -1 : 0;
 }
 
-/* From the edge into a face that has it for a border. */
-static void inwards(const struct axis *x, uint32_t face, double direction[3])
-{
-    sub3(direction, element_of(x->h, face)->centre, x->edge->end[0]);
-    double along = dot3(direction, x->along);
-    for (int k = 0; k < 3; k++)
-        direction[k] -= along * x->along[k];
-}
-
-/* Cut from the stretch where a x + b < 0, x in lengths of the edge. */
-static void cut_stretch(struct stretch *s, double at_from, double at_to)
-{
-    double slope = at_to - at_from, zero = slope > 0 || slope < 0 ? -at_from / slope : 0;
-    if (slope > 0)
-        s->from = fmax(s->from, zero);
-    else if (slope < 0)
-        s->to = fmin(s->to, zero);
-    else if (at_from < 0)
-        s->to = s->from;
-}
-
-/* How far a point is inside of border i of a face, in its plane (m). */
-static double inside_border(const struct element *e, int i, const double p[3])
-{
-    double side[3], in[3];
-    sub3(side, e->vertex[(i + 1) % e->vertices], e->vertex[i]);
-    cross3(in, e->normal, side);
-    double length = length3(in);
-    return length > 0 ? height3(p, e->vertex[i], in) / length : INFINITY;
-}
-
-static int is_long(const struct axis *x, const struct stretch *s)
-{
-    return (s->to - s->from) * x->length > 4 * x->touch;
-}
-
-/* The part of the edge that is nearer than touch to a face. Returns 0 where that is no more than
- * where it passes through. */
-static int touches(const struct axis *x, uint32_t face, struct stretch *s)
-{
-    const struct element *e = element_of(x->h, face);
-    const double(*end)[3] = x->edge->end;
-    double low = height3(end[0], e->vertex[0], e->normal),
-           high = height3(end[1], e->vertex[0], e->normal);
-    *s = (struct stretch){0, 1, face};
-    cut_stretch(s, low + x->touch, high + x->touch);
-    cut_stretch(s, x->touch - low, x->touch - high);
-    for (int i = 0; i < e->vertices && is_long(x, s); i++)
-        cut_stretch(s, inside_border(e, i, end[0]) + x->touch,
-                    inside_border(e, i, end[1]) + x->touch);
-    return is_long(x, s);
-}
-
-/* Collect the stretches of the edge that faces below an element touch. Returns how many there are
- * then; AROUND: perhaps more. */
-static int collect(const struct axis *x, uint32_t index, struct stretch *list, int count)
-{
-    const struct element *e = &x->h->elements[index];
-    if (e->vertices) {
-        if (count < AROUND && !x->h->faces[e->face].back)
-            count += touches(x, e->face, &list[count]);
-        return count;
-    }
-    for (int k = 0; k < 3; k++)
-        if (e->vertex[0][k] > x->high[k] || e->vertex[1][k] < x->low[k])
-            return count;
-    for (uint32_t c = 0; c < e->children; c++)
-        count = collect(x, e->child + c, list, count);
-    return count;
-}
-
 /* Mark the sides of a face, through which the edge runs, that those that have it stand on. */
-static void touch_sides(const struct sides *s, const struct axis *x, uint32_t face)
+static void touch_sides(const struct sides *s, const struct edge_axis *x, uint32_t face)
 {
-    const struct element *e = element_of(x->h, face);
+    const struct element *e = face_surface(x->h, face);
     for (size_t i = 0; i < x->shared; i++) {
         double direction[3];
-        inwards(x, x->edge[i].face, direction);
+        edge_axis_inwards(x, x->edge[i].face, direction);
         const double over = dot3(direction, e->normal), slight = CUT_SAME_LINE * length3(direction);
         if (over > -slight)
             s->touched[2 * face] = 1;
         if (over < slight)
             s->touched[2 * face + 1] = 1;
     }
-}
-
-/* How a face stands around a point of the edge. Returns how many wings that makes. */
-static int make_wings(const struct axis *x, uint32_t face, const double p[3], struct wing *wings)
-{
-    const struct element *e = element_of(x->h, face);
-    double nearest = INFINITY, direction[3];
-    for (int i = 0; i < e->vertices; i++)
-        nearest = fmin(nearest, inside_border(e, i, p));
-    if (nearest <= x->touch) {
-        inwards(x, face, direction);
-        wings[0] = wing_of(x, face, direction, 0);
-        return 1;
-    }
-    cross3(direction, e->normal, x->along);
-    wings[0] = wing_of(x, face, direction, 1);
-    for (int k = 0; k < 3; k++)
-        direction[k] = -direction[k];
-    wings[1] = wing_of(x, face, direction, 1);
-    return 2;
 }
 
 static int compare_numbers(const void *a, const void *b)
@@ -303,17 +140,17 @@ static int compare_numbers(const void *a, const void *b)
 
 /* The stretches of an edge, each with what stands around it: mark what they run through, and pair
  * what follows each other. Returns 0, or -1 when out of memory. */
-static int go_along(const struct sides *s, struct pairs *pairs, const struct axis *x)
+static int go_along(const struct sides *s, struct pairs *pairs, const struct edge_axis *x)
 {
-    struct stretch list[AROUND];
-    struct wing wings[2 * AROUND];
-    double at[2 * AROUND] = {0, 1};
-    int count = collect(x, 0, list, 0), places = 2, failed = 0;
-    for (int i = 0; i < count && count < AROUND; i++) {
+    struct stretch list[EDGE_FACES];
+    struct wing wings[2 * EDGE_FACES];
+    double at[2 * EDGE_FACES] = {0, 1};
+    int count = edge_axis_touched(x, list), places = 2, failed = 0;
+    for (int i = 0; i < count && count < EDGE_FACES; i++) {
         at[places++] = list[i].from;
         at[places++] = list[i].to;
     }
-    if (count == AROUND) {
+    if (count == EDGE_FACES) {
         for (size_t i = 0; i < x->shared; i++) {
             s->touched[2 * x->edge[i].face] = 1;
             s->touched[2 * x->edge[i].face + 1] = 1;
@@ -331,7 +168,7 @@ static int go_along(const struct sides *s, struct pairs *pairs, const struct axi
         for (int j = 0; j < count; j++) {
             if (list[j].from > middle || list[j].to < middle)
                 continue;
-            int more = make_wings(x, list[j].face, p, &wings[n]);
+            int more = edge_axis_wings(x, list[j].face, p, &wings[n]);
             if (more == 2)
                 touch_sides(s, x, list[j].face);
             n += more;
@@ -358,13 +195,13 @@ static void walk_edges(const void *walk, size_t from, size_t to)
 {
     const struct walk *w = walk;
     for (size_t i = w->first + from; i < w->first + to; i++) {
-        struct axis x;
+        struct edge_axis x;
         size_t shared = 1;
         if (i > 0 && same_edge(&w->edges[i - 1], &w->edges[i]))
             continue;
         while (i + shared < w->count && same_edge(&w->edges[i], &w->edges[i + shared]))
             shared++;
-        if (axis_of(&x, w->h, &w->edges[i], shared, w->precision)
+        if (edge_axis_of(&x, w->h, &w->edges[i], shared, w->precision)
             && go_along(w->sides, &w->pairs[from / RUN], &x) < 0)
             *w->failed = 1;
     }
