@@ -19,12 +19,23 @@ struct nodes {
     double at[3][ROOM], weight[ROOM], phi[3][ROOM];
 };
 
+/* A part of an element, and what has been made of it: it meets many of the other's. */
+struct cell {
+    struct element e;
+    const struct linear_side *side;
+    struct nodes nodes[2]; /* [order - 1]; count 0: not yet */
+    struct cell *quarter;  /* [4]; NULL: not yet */
+};
+
+enum { CELLS = 64 }; /* that are kept, of both elements; of cells beyond them all is made anew */
+
 /* The integral so far: sum[a][b] (m2). */
 struct integral {
-    struct linear_side r, s;
     double least; /* m: cells of no larger a radius are not quartered */
     int width;    /* of vectors */
     double sum[3][3];
+    int cells;
+    struct cell cell[CELLS];
 };
 
 static void add_node(struct nodes *n, const struct linear_side *side, const double x[3],
@@ -85,17 +96,19 @@ static void place_in_triangle(struct nodes *n, const struct linear_side *side,
         }
 }
 
-static void place(struct nodes *n, const struct linear_side *side, const struct element *e,
-                  int order)
+static const struct nodes *nodes_of(struct cell *c, int order)
 {
-    n->count = 0;
-    if (e->vertices == 4)
-        place_in_quad(n, side, e, order);
+    struct nodes *n = &c->nodes[order - 1];
+    if (n->count > 0)
+        return n;
+    if (c->e.vertices == 4)
+        place_in_quad(n, c->side, &c->e, order);
     else
-        place_in_triangle(n, side, e, order);
+        place_in_triangle(n, c->side, &c->e, order);
     for (int i = n->count; i % FEW; i++)
         for (int k = 0; k < 3; k++)
             n->at[k][i] = 0;
+    return n;
 }
 
 /* What nodes of a cell with normal m send to each of `at`, whose normal is n: for each function of
@@ -138,43 +151,39 @@ LANES_AVX2 void reach_4(const struct nodes *at, const double n[3], const struct 
 #endif
 
 /* Cells that are apart: all points with all points. */
-static void add_apart(struct integral *c, const struct element *r, const struct element *s,
-                      int order)
+static void add_apart(struct integral *c, struct cell *r, struct cell *s, int order)
 {
-    struct nodes at, from;
+    const struct nodes *at = nodes_of(r, order), *from = nodes_of(s, order);
     double reached[3][ROOM];
-    place(&at, &c->r, r, order);
-    place(&from, &c->s, s, order);
-    LANES_RUN(c->width, reach_4, reach_4, reach_body, (&at, r->normal, &from, s->normal, reached));
-    for (int i = 0; i < at.count; i++)
+    LANES_RUN(c->width, reach_4, reach_4, reach_body,
+              (at, r->e.normal, from, s->e.normal, reached));
+    for (int i = 0; i < at->count; i++)
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++)
-                c->sum[a][b] += at.weight[i] * at.phi[a][i] * reached[b][i];
+                c->sum[a][b] += at->weight[i] * at->phi[a][i] * reached[b][i];
 }
 
 /* int over `to` of phi_a(x) F(x, from). */
-static void exact_from_points(const struct linear_side *side, const struct element *to,
-                              const struct element *from, double marginal[3])
+static void exact_from_points(struct cell *to, const struct cell *from, double marginal[3])
 {
-    struct nodes n;
+    const struct nodes *n = nodes_of(to, 1);
     double x[POINTS][3], f[POINTS];
-    place(&n, side, to, 1);
-    for (int i = 0; i < n.count; i++)
+    for (int i = 0; i < n->count; i++)
         for (int k = 0; k < 3; k++)
-            x[i][k] = n.at[k][i];
-    lambert_sums(n.count, (const double(*)[3])x, to->normal, (const double(*)[3])from->vertex,
-                 from->vertices, f);
-    for (int i = 0; i < n.count; i++)
+            x[i][k] = n->at[k][i];
+    lambert_sums(n->count, (const double(*)[3])x, to->e.normal, (const double(*)[3])from->e.vertex,
+                 from->e.vertices, f);
+    for (int i = 0; i < n->count; i++)
         for (int a = 0; a < 3 && f[i] > 0; a++)
-            marginal[a] += n.weight[i] * n.phi[a][i] * f[i];
+            marginal[a] += n->weight[i] * n->phi[a][i] * f[i];
 }
 
 /* Cells that touch: the marginals from exact factors, else their product. */
-static void add_touching(struct integral *c, const struct element *r, const struct element *s)
+static void add_touching(struct integral *c, struct cell *r, struct cell *s)
 {
     double of_r[3] = {0, 0, 0}, of_s[3] = {0, 0, 0};
-    exact_from_points(&c->r, r, s, of_r);
-    exact_from_points(&c->s, s, r, of_s);
+    exact_from_points(r, s, of_r);
+    exact_from_points(s, r, of_s);
     if (!(of_r[0] > 0 && of_s[0] > 0))
         return;
     double whole = 0.5 * (of_r[0] + of_s[0]);
@@ -183,41 +192,66 @@ static void add_touching(struct integral *c, const struct element *r, const stru
             c->sum[a][b] += whole * (of_r[a] / of_r[0]) * (of_s[b] / of_s[0]);
 }
 
-static void add_cells(struct integral *c, const struct element *r, const struct element *s)
+static void begin_cell(struct cell *c, const struct linear_side *side)
 {
-    double away[3], sizes = r->radius + s->radius;
-    sub3(away, s->centre, r->centre);
+    c->side = side;
+    c->nodes[0].count = c->nodes[1].count = 0;
+    c->quarter = NULL;
+}
+
+/* Kept, where there is room; else in `own`. */
+static struct cell *quarters_of(struct integral *c, struct cell *whole, struct cell own[4])
+{
+    if (whole->quarter)
+        return whole->quarter;
+    struct cell *quarter = own;
+    if (c->cells + 4 <= CELLS) {
+        whole->quarter = quarter = &c->cell[c->cells];
+        c->cells += 4;
+    }
+    for (int i = 0; i < 4; i++) {
+        surface_quarter(&whole->e, i, &quarter[i].e);
+        begin_cell(&quarter[i], whole->side);
+    }
+    return quarter;
+}
+
+static void add_cells(struct integral *c, struct cell *r, struct cell *s)
+{
+    double away[3], sizes = r->e.radius + s->e.radius;
+    sub3(away, s->e.centre, r->e.centre);
     double distance = length3(away);
     if (distance > LINEAR_NEAR * sizes) {
         add_apart(c, r, s, distance > LINEAR_FAR * sizes ? 1 : 2);
         return;
     }
-    const struct element *larger = r->radius > s->radius ? r : s;
-    if (!(larger->radius > c->least)) {
+    struct cell *larger = r->e.radius > s->e.radius ? r : s, own[4];
+    if (!(larger->e.radius > c->least)) {
         add_touching(c, r, s);
         return;
     }
-    for (int i = 0; i < 4; i++) {
-        struct element quarter;
-        surface_quarter(larger, i, &quarter);
-        add_cells(c, larger == r ? &quarter : r, larger == r ? s : &quarter);
-    }
+    struct cell *quarter = quarters_of(c, larger, own);
+    for (int i = 0; i < 4; i++)
+        add_cells(c, larger == r ? &quarter[i] : r, larger == r ? s : &quarter[i]);
 }
 
-/* The part of e in front of the other's plane, as one or two cells. Returns how many. */
-static int cut_at_plane(const struct element *e, const struct element *other,
-                        struct element cell[2])
+/* The part of a side in front of the other's plane, as one or two cells. Returns how many. */
+static int cut_at_plane(const struct linear_side *side, const struct element *other,
+                        struct cell cell[2])
 {
+    const struct element *e = side->element;
     struct polygon p;
     polygon_clip(&p, (const double(*)[3])e->vertex, e->vertices, other->centre, other->normal);
     int cells = p.n == 0 ? 0 : p.n == 5 ? 2 : 1;
     for (int i = 0; i < cells; i++) {
-        memset(&cell[i], 0, sizeof cell[i]);
-        cell[i].vertices = (uint8_t)(i == 1 || p.n == 3 ? 3 : 4);
-        for (int j = 0; j < cell[i].vertices; j++)
-            memcpy(cell[i].vertex[j], p.v[i == 0 || j == 0 ? j : j + 2], sizeof p.v[0]);
-        surface_measure(&cell[i]);
-        memcpy(cell[i].normal, e->normal, sizeof e->normal);
+        struct element *part = &cell[i].e;
+        memset(part, 0, sizeof *part);
+        part->vertices = (uint8_t)(i == 1 || p.n == 3 ? 3 : 4);
+        for (int j = 0; j < part->vertices; j++)
+            memcpy(part->vertex[j], p.v[i == 0 || j == 0 ? j : j + 2], sizeof p.v[0]);
+        surface_measure(part);
+        memcpy(part->normal, e->normal, sizeof e->normal);
+        begin_cell(&cell[i], side);
     }
     return cells;
 }
@@ -229,12 +263,14 @@ void linear_coupling_integrate(double c[3][3], struct linear_side r, struct line
 
 void linear_coupling_at(int width, double c[3][3], struct linear_side r, struct linear_side s)
 {
-    struct integral sum = {.r = r, .s = s, .width = width};
-    struct element of_r[2], of_s[2];
-    double smaller = fmin(r.element->radius, s.element->radius);
-    int cells_of_r = cut_at_plane(r.element, s.element, of_r),
-        cells_of_s = cut_at_plane(s.element, r.element, of_s);
-    sum.least = LINEAR_CELL * smaller;
+    struct integral sum; /* without its cells' 100 kB, which are set where they are made */
+    struct cell of_r[2], of_s[2];
+    const int cells_of_r = cut_at_plane(&r, s.element, of_r),
+              cells_of_s = cut_at_plane(&s, r.element, of_s);
+    sum.least = LINEAR_CELL * fmin(r.element->radius, s.element->radius);
+    sum.width = width;
+    sum.cells = 0;
+    memset(sum.sum, 0, sizeof sum.sum);
     for (int i = 0; i < cells_of_r; i++)
         for (int j = 0; j < cells_of_s; j++)
             add_cells(&sum, &of_r[i], &of_s[j]);
