@@ -88,7 +88,7 @@ RAD_API RadDevice radNewDevice(const struct RadDeviceOptions *options);
 /* A device over processes that work together: `communicator` is the address of an MPI_Comm, of
  * which it makes its own; MPI_Init_thread(MPI_THREAD_FUNNELED) comes before, MPI_Finalize after the
  * last release. Each process, a rank, makes the same calls with the same arguments, from one
- * thread; each of radCommitScene, radNewSolution, radRefine, radStep, radSolve, radSolveScene,
+ * thread; each of radNewSolution, radRefine, radStep, radSolve, radSolveScene,
  * radMeasureError, radMeasurePlaces, radCorrect, radNewReference, radTraceReference,
  * radNewExchange, radMultiplyExchange, radGetPointFactors, radGetRanks and radGetExchangeRanks
  * waits for all, and so does this call. Results are the same on all ranks, and the same as of one

@@ -47,6 +47,7 @@ struct RadSceneObject {
     /* borrowed until the commit; zero before they are set and after it */
     struct RadPolygons polygons;
     int polygons_set, committed;
+    int lit_asked;      /* for what is dark: a solution has been made, not of view factors alone */
     struct scene scene; /* empty before the commit */
     struct RadSceneReport report;
     struct point_view points; /* of radGetPointFactors; .scene NULL: not yet asked */

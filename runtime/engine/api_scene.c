@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
-#include "engine/lit_faces.h"
 
 /* A RadFace is a struct face under the name that programs know. */
 _Static_assert(sizeof(struct RadFace) == sizeof(struct face)
@@ -136,15 +135,10 @@ int radCommitScene(RadScene scene)
         return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION, "set %s before radCommitScene",
                         scene->materials ? "polygons" : "materials");
     struct scene_error error;
-    const char *cause;
     if (scene_build(&scene->scene, &scene->polygons, scene->materials, scene->material_count,
                     scene->device->threads, &error)
         < 0)
         return api_fail(scene->device, error.code, "%s", error.text);
-    if (lit_faces_find(&scene->scene, scene->device->ranks, scene->device->threads, &cause) < 0) {
-        scene_free(&scene->scene);
-        return api_fail(scene->device, api_cause(cause), "%s", cause);
-    }
     make_report(scene);
     scene->polygons = (struct RadPolygons){0};
     free(scene->materials);

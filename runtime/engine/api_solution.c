@@ -5,6 +5,7 @@
 #include <string.h>
 #include "engine/api.h"
 #include "engine/dense.h"
+#include "engine/lit_faces.h"
 #include "engine/own_quarters.h"
 #include "engine/petsc_solution.h"
 #include "kernel/constants.h"
@@ -195,6 +196,18 @@ static struct solve_options engine_options(RadSolution solution, const struct Ra
     return options;
 }
 
+/* Which sides are dark, once for all solutions; view factors are of all sides. Returns 0, or -1
+ * with *cause set. */
+static int ask_lit(RadScene scene, const struct RadSolveOptions *o, const char **cause)
+{
+    if (o->unit || scene->lit_asked)
+        return 0;
+    if (lit_faces_find(&scene->scene, scene->device->ranks, scene->device->threads, cause) < 0)
+        return -1;
+    scene->lit_asked = 1;
+    return 0;
+}
+
 RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSolveOptions *given)
 {
     static const struct RadSolveOptions defaults;
@@ -224,7 +237,8 @@ RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSol
     solution->oracle = oracle;
     struct solve_options options = engine_options(solution, o);
     const char *cause;
-    if (solve_open(&solution->solve, &scene->scene, &options, &cause) < 0) {
+    if (ask_lit(scene, o, &cause) < 0
+        || solve_open(&solution->solve, &scene->scene, &options, &cause) < 0) {
         api_fail(scene->device, api_cause(cause), "%s", cause);
         free(solution);
         return NULL;
