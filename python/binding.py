@@ -79,7 +79,7 @@ void radGetReport(RadSolution solution, struct RadReport *report);
 struct RadMeasure { double value, low, high; };
 struct RadMeasureOptions { uint64_t rays; uint32_t stream; int surfaces; ...; };
 struct RadErrorReport { struct RadMeasure power, l1_faces, l2, p999, noise; double reflected;
-                        uint32_t worst; double worst_share; uint64_t rays, particles;
+                        uint32_t worst; double worst_share, worst_sure; uint64_t rays, particles;
                         double seconds; ...; };
 int radMeasureError(RadSolution solution, const struct RadMeasureOptions *options,
                     struct RadErrorReport *report);

@@ -746,9 +746,10 @@ struct RadErrorReport {
     struct RadMeasure noise;
     double reflected; /* light reflected, as counted, all bands (W) */
     /* of polygons above a hundredth of the area, the one that is most surely wrong, and by which
-     * share of what it reflects; RadSceneReport.polygons: none is, surely */
+     * share of what it reflects, as measured, and at the least; RadSceneReport.polygons: none is,
+     * surely. The share is the largest of many, and so rather too large; its sign is sure. */
     uint32_t worst;
-    double worst_share;
+    double worst_share, worst_sure;
     /* light that ends on black backs, as counted by particles (by paths: 0), a share of what is
      * emitted; of the polygon that takes most of it the share of that, and which it is;
      * RadSceneReport.polygons: none. Much of it where faces are turned the wrong way. */
@@ -1248,9 +1249,10 @@ RAD_API int radGetReferenceValues(RadReference reference, enum RadMethod method,
                                   double *radiosity, double *deviation);
 
 /* Hold a solution of the same scene, mended or not, against the particles of a reference, as
- * radMeasureError does against particles of its own: power, l1_faces, noise, reflected, worst and
- * worst_share; rays are those of the reference. What radGetPolygonErrors tells stays. Many
- * solutions are best judged by one reference: its noise is the same for all. Returns 0, or -1. */
+ * radMeasureError does against particles of its own: power, l1_faces, noise, reflected, worst,
+ * worst_share and worst_sure; rays are those of the reference. What radGetPolygonErrors tells
+ * stays. Many solutions are best judged by one reference: its noise is the same for all. Returns 0,
+ * or -1. */
 RAD_API int radMeasureErrorBy(RadSolution solution, RadReference reference,
                               struct RadErrorReport *report);
 

@@ -29,6 +29,7 @@ static struct RadErrorReport report_of(const struct measured_error *m)
                                .reflected = m->faces.reflected,
                                .worst = m->faces.worst,
                                .worst_share = m->faces.worst_share,
+                               .worst_sure = m->faces.worst_sure,
                                .backs = m->backs.share,
                                .back = m->backs.most,
                                .back_share = m->backs.most_share,

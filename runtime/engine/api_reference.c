@@ -179,6 +179,7 @@ int radMeasureErrorBy(RadSolution solution, RadReference r, struct RadErrorRepor
                                       .reflected = f.reflected,
                                       .worst = f.worst,
                                       .worst_share = f.worst_share,
+                                      .worst_sure = f.worst_sure,
                                       .rays = tally->rays,
                                       .particles = tally->particles * REPLICATES};
     face_error_close(&f);

@@ -357,7 +357,15 @@ int radStep(RadSolution solution)
     return more < 0 ? api_give_up(solution, cause) : more;
 }
 
-int api_solve(RadSolution solution, int may_end)
+static int is_given(const struct RadLimits *given, const char *limit)
+{
+    return (!strcmp(limit, "depth") && given->depth)
+           || (!strcmp(limit, "elements") && given->elements)
+           || (!strcmp(limit, "links") && given->links) || (!strcmp(limit, "pairs") && given->pairs)
+           || (!strcmp(limit, "rounds") && given->rounds);
+}
+
+int api_solve(RadSolution solution, const struct RadLimits *given)
 {
     if (api_not_dead(solution) < 0)
         return -1;
@@ -369,7 +377,8 @@ int api_solve(RadSolution solution, int may_end)
         return api_give_up(solution, "out of memory");
     if (solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0) {
         const struct refinement *r = &solution->solve.refinement;
-        if (!may_end || !r->met || r->none || solution->solve.report.cancelled)
+        if (!given || !r->met || is_given(given, r->met) || r->none
+            || solution->solve.report.cancelled)
             return api_give_up(solution, cause);
         solution->dead = 1;
         return 1;
@@ -380,7 +389,7 @@ int api_solve(RadSolution solution, int may_end)
 
 int radSolve(RadSolution solution)
 {
-    return api_solve(solution, 0);
+    return api_solve(solution, NULL);
 }
 
 int radSolveWithFactors(RadSolution solution, const float *form_factors)

@@ -478,6 +478,7 @@ static void show_all(struct face_error *f, const struct counted *c, double sures
     if (f->worst != (uint32_t)-first)
         f->worst_share = 0;
     f->worst = (uint32_t)-first;
+    f->worst_sure = most;
     ranks_add(ranks, RANKS_PARTICLES, &f->worst_share, 1);
 }
 
@@ -504,6 +505,7 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
         surest = sure / reflected;
         f->worst = i;
         f->worst_share = off / reflected;
+        f->worst_sure = surest;
     }
     show_all(f, c, surest);
 }

@@ -16,9 +16,10 @@ struct face_error {
     struct RadMeasure noise;     /* the L1 error that chance makes of what is counted itself */
     double reflected;            /* light reflected, as counted, all bands (W) */
     /* of polygons above FACE_ERROR_LARGE of the area that light meets: the one that is most
-     * surely wrong, and its error as a share of what it reflects; polygons: there is none */
+     * surely wrong, and its error as a share of what it reflects, as seen, and the least that it
+     * surely is (FACE_ERROR_SURE); polygons: there is none */
     uint32_t worst;
-    double worst_share;
+    double worst_share, worst_sure;
 };
 
 /* Hold the mean irradiances of faces, irradiance[element * bands + band] (W/m2), against a tally

@@ -197,6 +197,15 @@ static double alike_scatter(const struct reference *r, const struct means *m, si
     return share * alike->scattered / m->paths[i];
 }
 
+/* What the variance of half of the paths must be, at the least, for particles to be right: where
+ * paths find a bright spot one time in a million they find less, and seem sure. So many times what
+ * either expects of its noise is no news. */
+static double missed(const struct half *half, double spread, double times)
+{
+    const double off = (half->found - half->counted) / times;
+    return fmax(off * off - spread, 0);
+}
+
 static struct known weigh(const struct reference *r, const struct means *m, size_t i, uint32_t band)
 {
     struct known k = {{0, 0, 0}, {0, 0, 0}};
@@ -212,8 +221,11 @@ static struct known weigh(const struct reference *r, const struct means *m, size
         scattered[h] = (half[h].scattered + alike) / 2;
         by_paths[h] = paths;
         if (both && spread[h] > 0) {
-            const double w = spread[h] / (spread[h] + fmax(half[h].scattered, alike));
+            const double scatter = fmax(fmax(half[h].scattered, alike),
+                                        missed(&half[h], spread[h], REFERENCE_DOUBT)),
+                         w = spread[h] / (spread[h] + scatter);
             by_paths[h] = w < REFERENCE_LEAST ? 0 : w;
+            scattered[h] = fmax(scattered[h], missed(&half[h], spread[h], REFERENCE_MISSED));
         }
         all.counted += half[h].counted / PATH_HALVES;
         all.square += half[h].square / PATH_HALVES;

@@ -562,6 +562,11 @@
 /* of a polygon's light. Where paths would tell less than that, particles tell all: chosen, its
  * standard error is a sixth larger then at the most; weights of rare paths are rarely right */
 #define REFERENCE_LEAST 0.25
+/* standard errors. Paths that are farther from particles than this have missed light, and weigh as
+ * that tells (as two Gaussians are once in twenty); what they claim grows only where they are
+ * farther than the second (once in 370), so that it stays what chance makes it; chosen */
+#define REFERENCE_DOUBT 2.0
+#define REFERENCE_MISSED 3.0
 /* of the mean over its standard error, squared: so many paths at the least have found light, and
  * their spread is known to a tenth. Others do not judge whether two methods agree; chosen */
 #define REFERENCE_SURE 100

@@ -143,8 +143,9 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
         printf("; worst large face %u: %.3g times as bright as it should be\n", (unsigned)e->worst,
                1 + e->worst_share);
     else if (e->worst < polygons)
-        printf("; worst large face %u: %.3g %% too %s\n", (unsigned)e->worst,
-               100 * fabs(e->worst_share), e->worst_share < 0 ? "dark" : "bright");
+        printf("; worst large face %u: %.2g %% too %s, at the least %.2g\n", (unsigned)e->worst,
+               100 * fabs(e->worst_share), e->worst_share < 0 ? "dark" : "bright",
+               100 * e->worst_sure);
     else
         printf("; no large face is surely wrong\n");
     print_unsure(m);
@@ -197,7 +198,8 @@ static json_t *worst_json(const struct RadErrorReport *r, uint32_t polygons)
 {
     if (r->worst >= polygons)
         return json_null();
-    return json_pack("{s:I, s:f}", "face", (json_int_t)r->worst, "share", r->worst_share);
+    return json_pack("{s:I, s:f, s:f}", "face", (json_int_t)r->worst, "share", r->worst_share,
+                     "at_least", r->worst_sure);
 }
 
 json_t *measured_json(const struct measured *m, uint32_t polygons)

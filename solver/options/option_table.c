@@ -374,7 +374,7 @@ const struct command_row command_rows[COMMANDS] = {
     [COMMAND_SOLVE] =
         {"solve", "SCENE", "light in a scene: summary, picture, mesh, tables",
          "Solve a scene, print a summary, and write the outputs that are asked for.\n",
-         "radiosity solve room.obj --set relative=0.02 --image room.png"},
+         "radiosity solve room.obj -o room.glb --image room.png"},
     [COMMAND_COMPARE] =
         {"compare", "SCENE", "the releases of an oracle, side by side",
          "Solve a scene by all releases of an oracle at once: compiled graph, interpreted\n"

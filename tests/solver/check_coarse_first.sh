@@ -35,6 +35,12 @@ count=$((count + 1))
 [ "$(value links)" = 0 ] || failed "links, though there should be none"
 count=$((count + 1))
 solve boxes.obj --threads 1 && cmp -s faces once || failed "without links, another number of threads, another answer"
+# A limit that somebody has set is no price, and ends the run.
+for limit in depth=1 links=100 pairs=1000; do
+    count=$((count + 1))
+    solve boxes.obj --limit "$limit"
+    [ $? = 1 ] && grep -q "did not end within $limit" err || failed "--limit $limit"
+done
 # Links that are asked for, or how they are solved, are made.
 scaled boxes.obj 16 true --solver jacobi
 scaled boxes.obj 16 true --closure rows

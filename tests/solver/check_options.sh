@@ -281,6 +281,21 @@ count=$((count + 1))
 mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
 [ $? = 1 ] && grep -q none.obj err || failed "a pipe as output"
 
+# ---- examples of help and man page that need no other file run as they stand
+mkdir examples && (
+    cd examples && cp "$scenes"/cornell.obj room.obj && cp "$scenes"/cornell.mtl . || exit
+    { "$radiosity" solve --help; cat "$top/solver/man/radiosity.1"; } |
+        sed -n 's/^ *\(radiosity solve room.obj .*\)/\1/p' | grep -v mine | sort -u >all
+)
+count=$((count + 1))
+[ "$(wc -l <examples/all)" -ge 6 ] || failed "fewer examples than there were"
+while read -r line; do
+    count=$((count + 1))
+    # shellcheck disable=SC2086
+    (cd examples && "$radiosity" ${line#radiosity } -q >../out 2>../err) || failed "$line"
+done <examples/all
+rm -rf examples
+
 # ---- the picture of the error takes what that of the light takes, and both come from one run
 count=$((count + 1))
 "$radiosity" solve "$scene" -q --image-error e.png --mesh --view 0.5,0.5,0.5:1,0.5,0.5 --size 60x40 >out 2>err &&

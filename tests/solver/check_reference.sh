@@ -45,6 +45,43 @@ check "it goes on" grep -q "^goes on from two.csv.state: .* particles" out
 check "the same in two runs" cmp one.csv two.csv
 check "the state is gone" [ ! -e two.csv.state ]
 
+# ---- a small lamp over the floor of a hall: paths miss the bright spot, and are sure of the rest. What is emitted is absorbed
+cat >hall.mtl <<'END'
+newmtl wall
+Kd .5 .5 .5
+newmtl lamp
+Kd .99 .99 .99
+Ke 1000 1000 1000
+END
+cat >hall.obj <<'END'
+mtllib hall.mtl
+v 0 0 0
+v 200 0 0
+v 200 200 0
+v 0 200 0
+v 0 0 4
+v 200 0 4
+v 200 200 4
+v 0 200 4
+v 100 100 .05
+v 100 100.05 .05
+v 100.05 100.05 .05
+v 100.05 100 .05
+usemtl wall
+f 1 2 3 4
+f 8 7 6 5
+f 1 5 6 2
+f 3 7 8 4
+f 4 8 5 1
+f 2 6 7 3
+usemtl lamp
+f 9 10 11 12
+END
+check "a hall" "$radiosity" reference hall.obj --accuracy 0.5% -q -o hall.csv
+# walls absorb as much as they reflect; the lamp takes a thousandth
+reflected=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } $at["face"] < 6 { sum += $at["area"] * $at["B_0"] } END { print sum }' hall.csv)
+check "of 2.5 W, $reflected W are absorbed" within 2.5 "$reflected" 0.02
+
 # ---- stopped by a signal, three times, at whatever place; also when its table is there already
 check "at one go" "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% -q -o whole.csv
 : >long.csv.log

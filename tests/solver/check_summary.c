@@ -156,11 +156,14 @@ START_TEST(test_error)
 END_TEST
 
 /* The worst face of four, 3, that is off by a share of its light: what is printed of it. */
-static void print_worst(char *text, size_t size, double share)
+static void print_worst(char *text, size_t size, double share, double sure)
 {
-    measured = (struct measured){
-        .measured = 1,
-        .error = {.l1_faces = {0.1, 0.09, 0.11}, .reflected = 1, .worst = 3, .worst_share = share}};
+    measured = (struct measured){.measured = 1,
+                                 .error = {.l1_faces = {0.1, 0.09, 0.11},
+                                           .reflected = 1,
+                                           .worst = 3,
+                                           .worst_share = share,
+                                           .worst_sure = sure}};
     FILE *file = tmpfile();
     ck_assert_ptr_nonnull(file);
     fflush(stdout);
@@ -179,11 +182,12 @@ static void print_worst(char *text, size_t size, double share)
 START_TEST(test_worst_face)
 {
     char text[4096];
-    print_worst(text, sizeof text, -0.2);
-    ck_assert_ptr_nonnull(strstr(text, "; worst large face 3: 20 % too dark\n"));
-    print_worst(text, sizeof text, 9);
-    ck_assert_ptr_nonnull(strstr(text, "; worst large face 3: 900 % too bright\n"));
-    print_worst(text, sizeof text, 270);
+    print_worst(text, sizeof text, -0.2, 0.03);
+    ck_assert_ptr_nonnull(strstr(text, "; worst large face 3: 20 % too dark, at the least 3\n"));
+    print_worst(text, sizeof text, 9, 8);
+    ck_assert_ptr_nonnull(
+        strstr(text, "; worst large face 3: 9e+02 % too bright, at the least 8e+02\n"));
+    print_worst(text, sizeof text, 270, 200);
     ck_assert_ptr_nonnull(
         strstr(text, "; worst large face 3: 271 times as bright as it should be\n"));
 }
