@@ -383,6 +383,10 @@
  * faces are long, are off by 8.7 % with 256, by 4.8 with 64 and by 3.5 with 16:
  * tests/tables/judge.sh */
 #define REFINER_MEND_DETAIL 16.0
+/* leaves that are quartered for particles come to no more than so many, about, however many
+ * particles are traced, as for power per face to a milliwatt. Chosen: twice the pixels of a large
+ * picture, and two gigabytes */
+#define REFINER_MEND_LEAVES 2097152.0
 /* of the fewest rays of mending: leaves are made for so many landings at the least, as it shows
  * only later how many rays are cast. Chosen: two doublings */
 #define REFINER_DETAIL_LANDINGS 4.0

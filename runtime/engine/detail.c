@@ -176,7 +176,7 @@ int detail_leaves(struct solve *s, double landings)
         whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
     if (!(whole > 0) || !s->linear.gradient)
         return 0;
-    const double per_watt = landings / MEND_DETAIL / whole;
+    const double per_watt = fmin(landings / MEND_DETAIL, MEND_LEAVES) / whole;
     return deal_out(s, per_watt) < 0 ? -1 : split_leaves(s, per_watt, 0);
 }
 

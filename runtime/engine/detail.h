@@ -6,8 +6,9 @@
 #include "engine/solve.h"
 
 /* Split the leaves of a linear solution, until about so many particles land (of all that do,
- * `landings`) on each no more than MEND_DETAIL. What links say is the same function as before, and
- * no link is added. A solution of constants stays as it is. Returns 0, or -1 when out of memory. */
+ * `landings`) on each no more than MEND_DETAIL, or there are about MEND_LEAVES. What links say is
+ * the same function as before, and no link is added. A solution of constants stays as it is.
+ * Returns 0, or -1 when out of memory. */
 int detail_leaves(struct solve *s, double landings);
 
 /* Once the solution is mended: of the elements made since there were `first`, drop those whose

@@ -313,12 +313,14 @@ void summary_print(const struct summary *s)
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
     ranks_print(s->ranks, s->rank_count);
-    double particles = measured_seconds(s->measured) + (s->coarse ? s->coarse->choice.seconds : 0);
-    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, particles "
+    const double solve = r->seconds.build + r->seconds.refine + r->seconds.iterate,
+                 rest = s->accuracy ? fmax(s->accuracy->seconds - solve, 0)
+                                    : measured_seconds(s->measured)
+                                          + (s->coarse ? s->coarse->choice.seconds : 0);
+    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, %s "
            "%.2f, output %.2f; %.0f MB\n",
-           r->seconds.build + r->seconds.refine + r->seconds.iterate + particles
-               + s->output_seconds,
-           r->seconds.build, r->seconds.refine,
+           solve + rest + s->output_seconds, r->seconds.build, r->seconds.refine,
            r->seconds.refine > 0 ? 100 * r->seconds.in_rays / r->seconds.refine : 0,
-           r->seconds.iterate, particles, s->output_seconds, peak_megabytes());
+           r->seconds.iterate, s->accuracy ? "particles and solves before" : "particles", rest,
+           s->output_seconds, peak_megabytes());
 }

@@ -51,7 +51,8 @@ static int print_help(void)
            ".nas, View3D .vs3, glTF, Collada or what else Assimp reads, in metres. The\n"
            "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
            "Faces have one side unless the material's name ends in _2s.\n"
-           "--help after a command tells its options; radiosity --version the version.\n"
+           "--help after a command tells its options, --help=all the rare ones, too;\n"
+           "radiosity --version the version.\n"
            "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
            "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
     return 0;
@@ -194,7 +195,8 @@ static int command_of(int count, char **arguments, enum command *command)
 
 static int is_help(const char *argument)
 {
-    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "--help=all") == 0
+           || strcmp(argument, "-h") == 0;
 }
 
 /* The arguments name no command. Returns the exit status. */
