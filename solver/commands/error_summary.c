@@ -66,12 +66,17 @@ static void print_share(FILE *out, const struct RadMeasure *m)
         fprintf(out, "at most %.2g %%", 100 * m->high);
 }
 
+/* Less than that, of all light, is right: rounding, or particles that are scaled to what is known
+ * of all light (power_balance.h), may seem surer than it is of use to tell. */
+#define RIGHT 1e-4
+
 /* ", 1.2 % too little in all", or ", in all right within 1.2 %" where that says more than the error
  * per face, which the error in all is never above. */
 static void print_power(FILE *out, const struct RadErrorReport *r)
 {
-    double within = fmax(-r->power.low, r->power.high);
-    if (r->power.low > 0 || r->power.high < 0)
+    const double within = fmax(fmax(-r->power.low, r->power.high), RIGHT);
+    const int sure = r->power.low > 0 || r->power.high < 0;
+    if (sure && fabs(r->power.value) >= RIGHT)
         fprintf(out, ", %.2g %% too %s in all", 100 * fabs(r->power.value),
                 r->power.value < 0 ? "little" : "much");
     else if (within < r->l1_faces.high)

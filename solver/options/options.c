@@ -51,8 +51,7 @@ static int print_help(void)
            ".nas, View3D .vs3, glTF, Collada or what else Assimp reads, in metres. The\n"
            "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
            "Faces have one side unless the material's name ends in _2s.\n"
-           "--help after a command tells its options, --help=all the rare ones, too;\n"
-           "radiosity --version the version.\n"
+           "COMMAND --help tells its options, --help=all all of them; --version the version.\n"
            "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
            "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
     return 0;

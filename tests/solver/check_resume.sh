@@ -20,7 +20,7 @@ for i in 1 2 3 4 5 6 7 8; do
     "$radiosity" viewfactors "$scene" --threads $((1 + i % 3)) -o m.csv --json m.json --resume m.state >out 2>whole.said &
     pid=$!
     signal=$([ $((i % 2)) = 1 ] && echo INT || echo TERM)
-    [ $i -gt 3 ] || { catches $pid; sleep 0.7; kill -$signal $pid 2>err.kill; rm -f err.kill; }
+    [ $i -gt 3 ] || { catches $pid; sleep 0.3; kill -$signal $pid 2>err.kill; rm -f err.kill; }
     wait $pid
     status=$?
     [ $stops = 0 ] || check "run $i says that it goes on" grep -q "^goes on from m.state: .*links" whole.said
@@ -42,7 +42,7 @@ rm -f m.csv m.json
 "$radiosity" viewfactors "$scene" -q -o m.csv --resume m.state >out 2>err &
 pid=$!
 catches $pid
-sleep 0.5
+sleep 0.3
 kill -TERM $pid && kill -TERM $pid && kill -TERM $pid
 wait $pid
 check "two signals leave at most a state" [ -z "$(left m.state)" ]
