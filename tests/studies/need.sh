@@ -143,7 +143,7 @@ names=$(awk -F , 'NR > 1 && $1 != "-" && !seen[$1]++ { print $1 }' "$pages/need.
                 if (b > high) high = b
             }
             if (k) printf "A link, with its share of elements and of all else that grows with them, takes %.0f to %.0f bytes at the peak (%d scenes, from thresholds 16 times as large to a quarter).\n", low, high, k
-            if (n) print "\n| oracle | code of the compiled graph, bytes | written by hand, with what it calls |\n|---|---|---|"
+            if (n) print "\n| oracle | code of the compiled graph, for one pair and for many, bytes | written by hand, with what it calls |\n|---|---|---|"
             for (i = 1; i <= n; i++) printf "| `%s` | %s | %s |\n", name[i], code[name[i], "flat"], code[name[i], "hand"]
         }' "$pages/need.csv"
 } >"$tmp/page.md"
