@@ -1,7 +1,11 @@
 /* dim_belief.c - see dim_belief.h.
  *
  * Means are taken by the inverse of variances: of mending and paths, then of both and split
- * particles. Paths end in the solution, and where that is wrong so are they, whatever their noise.
+ * particles. A bright spot that one path in a million finds is missed by nearly all, which then
+ * agree: so paths that are farther from mending than twice what both expect of their noise are
+ * thought to be off by what that tells, as in references (engine/reference.c).
+ *
+ * Paths end in the solution, and where that is wrong so are they, whatever their noise.
  * Split particles have no such bias. So where the two are farther apart than MEND_EVIDENCE standard
  * errors, the former are thought to be off by what noise does not explain.
  *
@@ -45,7 +49,9 @@ double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p)
 
 double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p)
 {
-    return p->variance / (p->variance + dim_path_variance(d, p) / (double)p->paths);
+    const double n = (double)p->paths, off = (p->all / n - p->light) / REFERENCE_DOUBT,
+                 variance = fmax(dim_path_variance(d, p) / n, off * off - p->variance);
+    return p->variance / (p->variance + variance);
 }
 
 /* The share of paths that is believed. What a first look found says as little of its own noise as

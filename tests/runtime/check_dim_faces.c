@@ -4,6 +4,7 @@
  * particles. What links say of one wall of the dark one is spoilt.
  * SPDX-License-Identifier: MIT */
 #include "runtime/make_solve.h"
+#include "engine/dim_belief.h"
 #include "engine/dim_faces.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
@@ -316,11 +317,25 @@ START_TEST(test_bright)
 }
 END_TEST
 
+/* A thousand paths that agree about a tenth of what particles count, to a tenth of that, have
+ * missed what the rest comes from; those that say nearly the same know it best. */
+START_TEST(test_missed)
+{
+    const struct dim_faces d = {.unseen = 0};
+    struct dim_polygon p = {.light = 1, .variance = 0.01, .paths = 1000, .all = 100, .square = 11};
+    ck_assert_double_lt(dim_path_weight(&d, &p), 0.06);
+    p.all = 950;
+    p.square = 903.5;
+    ck_assert_double_gt(dim_path_weight(&d, &p), 0.99);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("dim faces");
     TCase *tests = tcase_create("");
     tcase_set_timeout(tests, 60);
+    tcase_add_test(tests, test_missed);
     tcase_add_test(tests, test_found);
     tcase_add_test(tests, test_stood_on);
     tcase_add_test(tests, test_unsure);
