@@ -412,6 +412,10 @@
 /* of the scene's area. A polygon above is judged by its own light, however dim; chosen with
  * FACE_ERROR_LARGE: there can be a hundred at most */
 #define REFINER_DIM_LARGE 0.01
+/* standard errors. Paths from a dim polygon that are farther than this from what particles and
+ * links say of it have missed light (once in 370 by chance, which then costs split particles);
+ * chosen */
+#define REFINER_DIM_MISSED 3.0
 /* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to; */
 #define REFINER_DIM_GOAL 0.0255

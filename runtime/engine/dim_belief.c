@@ -2,12 +2,12 @@
  *
  * Means are taken by the inverse of variances: of mending and paths, then of both and split
  * particles. A bright spot that one path in a million finds is missed by nearly all, which then
- * agree: so paths that are farther from mending than twice what both expect of their noise are
- * thought to be off by what that tells, as in references (engine/reference.c).
+ * agree: so where paths are farther from mending than DIM_MISSED standard errors, they are thought
+ * to be off by what noise does not explain.
  *
- * Paths end in the solution, and where that is wrong so are they, whatever their noise.
- * Split particles have no such bias. So where the two are farther apart than MEND_EVIDENCE standard
- * errors, the former are thought to be off by what noise does not explain.
+ * Paths end in the solution, and where that is wrong so are they, whatever their noise. Split
+ * particles have no such bias: where these say otherwise, by MEND_EVIDENCE standard errors, mending
+ * and paths are thought to be off in the same way.
  *
  * Fails: where the two agree by chance. [Derived here]
  * SPDX-License-Identifier: MIT */
@@ -49,8 +49,10 @@ double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p)
 
 double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p)
 {
-    const double n = (double)p->paths, off = (p->all / n - p->light) / REFERENCE_DOUBT,
-                 variance = fmax(dim_path_variance(d, p) / n, off * off - p->variance);
+    const double n = (double)p->paths, apart = p->all / n - p->light;
+    double variance = dim_path_variance(d, p) / n;
+    if (apart * apart > DIM_MISSED * DIM_MISSED * (variance + p->variance))
+        variance = apart * apart - p->variance;
     return p->variance / (p->variance + variance);
 }
 
