@@ -16,7 +16,7 @@ groups pay nothing | runtime/engine/row_sums.c | s/if (rows.sum > most \* rows.a
 groups pay all | runtime/engine/row_sums.c | s/fmax(0, (most \* rows->area - sure) \/ (all - sure))/0 * most/ | runtime/check_transport
 what sees nothing is looked at | runtime/engine/dim_paths.h | s/p->sighted == 0/p->sighted > p->paths/ | runtime/check_dim_faces
 covered faces are looked at | runtime/engine/dim_faces.c | s/ \* d->solve->operator.uncovered\[h->face_element\[i\]\]// | runtime/check_dim_faces
-paths miss nothing | runtime/engine/dim_belief.c | s/variance = apart \* apart - p->variance;/;/ | runtime/check_dim_faces
+paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces
 near as far | runtime/terms/visibility.h | s/dot3(apart, apart) < wide \* wide/dot3(apart, apart) < 0 * wide/ | runtime/check_runtime
 shadow .05 | runtime/kernel/constants.h | s/\(ROW_SHADOW\) *0.5$/\1 0.05/ | runtime/check_transport runtime/check_closure runtime/check_solve
 rough .2, settled 5 | runtime/kernel/constants.h | s/\(ROUGH_TOLERANCE\) *0.005$/\1 0.2/; s/\(SETTLED\) *1000$/\1 5/ | runtime/check_transport runtime/check_clusters

@@ -126,9 +126,9 @@ int api_not_dead(RadSolution solution);
 /* Is this process alone? Returns 0, or -1 with the device told that `what` needs all links. */
 int api_alone(RadDevice device, const char *what);
 
-/* radSolve. given: not NULL: nobody is told where refinement meets a limit that is not among these
- * (0: not given). Returns 0, -1, or 1: it has. */
-int api_solve(RadSolution solution, const struct RadLimits *given);
+/* radSolve. may_end: where refinement meets a limit that nobody has given, or that on pairs, nobody
+ * is told. Returns 0, -1, or 1: it has. */
+int api_solve(RadSolution solution, int may_end);
 
 /* Is there light to be looked at? Returns 0, or -1 with the device told that `what` needs it. */
 int api_solved(RadSolution solution, const char *what);

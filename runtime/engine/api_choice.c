@@ -48,15 +48,13 @@ struct choosing {
 static int solve(struct choosing *x, double scale, double pairs, RadSolution *solution)
 {
     struct RadSolveOptions options = x->options;
-    struct RadLimits given = x->options.limits; /* the caller's own are met as ever */
+    /* a limit of the caller's own that comes sooner is met as ever */
     const int limited =
         pairs > 0 && !(options.limits.pairs > 0 && (double)options.limits.pairs <= pairs);
     const double start = seconds();
     options.no_links = x->so_far.no_links;
-    if (limited) {
+    if (limited)
         options.limits.pairs = (uint64_t)pairs;
-        given.pairs = 0;
-    }
     x->so_far.scale = scale;
     *solution = NULL;
     if (radScaleOracle(x->oracle, scale) < 0)
@@ -69,7 +67,7 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
         status = api_fail(x->scene->device, RAD_ERROR_CANCELLED,
                           "given up by whoever wanted to begin it");
     if (status == 0)
-        status = api_solve(s, limited ? &given : NULL);
+        status = api_solve(s, limited);
     if (status == 0)
         *solution = s;
     else

@@ -357,15 +357,14 @@ int radStep(RadSolution solution)
     return more < 0 ? api_give_up(solution, cause) : more;
 }
 
-static int is_given(const struct RadLimits *given, const char *limit)
+/* Has the caller given the limit that is met? Pairs are not asked for. */
+static int is_given(const struct limits *given, const char *met)
 {
-    return (!strcmp(limit, "depth") && given->depth)
-           || (!strcmp(limit, "elements") && given->elements)
-           || (!strcmp(limit, "links") && given->links) || (!strcmp(limit, "pairs") && given->pairs)
-           || (!strcmp(limit, "rounds") && given->rounds);
+    return (!strcmp(met, "depth") && given->depth) || (!strcmp(met, "elements") && given->elements)
+           || (!strcmp(met, "links") && given->links) || (!strcmp(met, "rounds") && given->rounds);
 }
 
-int api_solve(RadSolution solution, const struct RadLimits *given)
+int api_solve(RadSolution solution, int may_end)
 {
     if (api_not_dead(solution) < 0)
         return -1;
@@ -377,8 +376,8 @@ int api_solve(RadSolution solution, const struct RadLimits *given)
         return api_give_up(solution, "out of memory");
     if (solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0) {
         const struct refinement *r = &solution->solve.refinement;
-        if (!given || !r->met || is_given(given, r->met) || r->none
-            || solution->solve.report.cancelled)
+        if (!may_end || !r->met || is_given(&solution->solve.problem.options.limits, r->met)
+            || r->none || solution->solve.report.cancelled)
             return api_give_up(solution, cause);
         solution->dead = 1;
         return 1;
@@ -389,7 +388,7 @@ int api_solve(RadSolution solution, const struct RadLimits *given)
 
 int radSolve(RadSolution solution)
 {
-    return api_solve(solution, NULL);
+    return api_solve(solution, 0);
 }
 
 int radSolveWithFactors(RadSolution solution, const float *form_factors)

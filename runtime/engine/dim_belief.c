@@ -47,12 +47,19 @@ double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p)
     return fmax((p->square + d->unseen * d->unseen) / n - mean * mean, 0) * n / (n - 1);
 }
 
+/* The variance of what is so far apart from something else, whose variance is known: where that is
+ * more than so many standard errors of both, what noise does not explain. */
+static double doubted(double variance, double apart, double other, double errors)
+{
+    const double square = apart * apart;
+    return square > errors * errors * (variance + other) ? square - other : variance;
+}
+
 double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p)
 {
-    const double n = (double)p->paths, apart = p->all / n - p->light;
-    double variance = dim_path_variance(d, p) / n;
-    if (apart * apart > DIM_MISSED * DIM_MISSED * (variance + p->variance))
-        variance = apart * apart - p->variance;
+    const double n = (double)p->paths,
+                 variance = doubted(dim_path_variance(d, p) / n, p->all / n - p->light, p->variance,
+                                    DIM_MISSED);
     return p->variance / (p->variance + variance);
 }
 
@@ -76,11 +83,10 @@ static double light_of_both(const struct dim_faces *d, const struct dim_polygon 
  * wrong so are they: these show it, as far as the two are farther apart than by their own noise. */
 static double split_weight(const struct dim_faces *d, const struct dim_polygon *p)
 {
-    double variance, both = light_of_both(d, p, &variance), apart = both - p->split_light;
+    double variance, both = light_of_both(d, p, &variance);
     if (!(p->split_variance > 0))
         return 0;
-    if (apart * apart > MEND_EVIDENCE * MEND_EVIDENCE * (variance + p->split_variance))
-        variance = apart * apart - p->split_variance;
+    variance = doubted(variance, both - p->split_light, p->split_variance, MEND_EVIDENCE);
     return variance / (variance + p->split_variance);
 }
 

@@ -462,18 +462,18 @@ static struct RadMeasure measure_power(struct counted *c)
                                value + T_QUANTILE * deviation};
 }
 
-/* What is shown of all ranks' polygons: `surest`, how surely this rank's worst one is wrong. */
-static void show_all(struct face_error *f, const struct counted *c, double surest)
+/* What is shown of all ranks' polygons. */
+static void show_all(struct face_error *f, const struct counted *c)
 {
     struct ranks *ranks = c->rows.ranks;
     const size_t values = (size_t)f->polygons * f->bands;
-    double most = surest, first;
+    double most = f->worst_sure, first;
     if (!ranks)
         return;
     ranks_add(ranks, RANKS_PARTICLES, f->error, values); /* to zeros */
     ranks_add(ranks, RANKS_PARTICLES, f->deviation, values);
     ranks_most(ranks, RANKS_PARTICLES, &most, 1);
-    first = surest < most ? -(double)f->polygons : -(double)f->worst;
+    first = f->worst_sure < most ? -(double)f->polygons : -(double)f->worst;
     ranks_most(ranks, RANKS_PARTICLES, &first, 1);
     if (f->worst != (uint32_t)-first)
         f->worst_share = 0;
@@ -486,7 +486,6 @@ static void show_all(struct face_error *f, const struct counted *c, double sures
 static void show_polygons(struct face_error *f, const struct counted *c, const double *areas,
                           double all)
 {
-    double surest = 0;
     for (uint32_t row = 0; row < c->rows.count; row++) {
         const uint32_t i = polygon_of_row(&c->rows, row);
         double off = 0, reflected = 0, noise = 0;
@@ -500,14 +499,13 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
         }
         double sure = fabs(off) - FACE_ERROR_SURE * noise;
         if (!(areas[i] > FACE_ERROR_LARGE * all) || !(reflected > 0)
-            || !(sure > surest * reflected))
+            || !(sure > f->worst_sure * reflected))
             continue;
-        surest = sure / reflected;
         f->worst = i;
         f->worst_share = off / reflected;
-        f->worst_sure = surest;
+        f->worst_sure = sure / reflected;
     }
-    show_all(f, c, surest);
+    show_all(f, c);
 }
 
 /* Everything counted, and how noisy it is. Returns NULL when out of memory. */

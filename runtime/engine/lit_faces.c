@@ -35,12 +35,14 @@ static int find_brightest(const struct scene *scene, double *brightest)
 static int find_dark(const struct scene *scene, const double *brightest, struct ranks *ranks,
                      int threads, uint8_t *dark, const char **cause)
 {
-    struct hierarchy h;
+    struct hierarchy h = {0};
+    struct rays *rays = NULL;
     int result = -1;
-    if (hierarchy_build_by(&h, scene->faces, scene->face_count, CLUSTERING_DEFAULT, threads) < 0)
-        return -1;
-    struct rays *rays = rays_open(&h, brightest, brightest, threads, cause);
-    if (rays) {
+    if (!ranks_any(ranks, hierarchy_build_by(&h, scene->faces, scene->face_count,
+                                             CLUSTERING_DEFAULT, threads)
+                              < 0))
+        rays = rays_open(&h, brightest, brightest, threads, cause);
+    if (!ranks_any(ranks, !rays)) {
         *cause = "out of memory";
         result = dark_sides_find(rays, &h, brightest, scene->precision, ranks, threads, dark);
     }

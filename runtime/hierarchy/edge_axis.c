@@ -10,7 +10,7 @@
 int edge_axis_of(struct edge_axis *x, const struct hierarchy *h, const struct edge *edge,
                  size_t shared, double precision)
 {
-    const struct element *e = face_surface(h, edge->face);
+    const struct element *e = hierarchy_surface(h, edge->face);
     double largest = 0;
     for (int k = 0; k < 3; k++)
         largest = fmax(largest, fmax(fabs(edge->end[0][k]), fabs(edge->end[1][k])));
@@ -35,14 +35,14 @@ static struct wing wing_of(const struct edge_axis *x, uint32_t face, const doubl
 {
     double over[3];
     cross3(over, x->along, direction);
-    const uint32_t behind = dot3(over, face_surface(x->h, face)->normal) > 0;
+    const uint32_t behind = dot3(over, hierarchy_surface(x->h, face)->normal) > 0;
     return (struct wing){atan2(dot3(direction, x->across.v), dot3(direction, x->across.u)),
                          2 * face + 1 - behind, 2 * face + behind, whole};
 }
 
 void edge_axis_inwards(const struct edge_axis *x, uint32_t face, double direction[3])
 {
-    sub3(direction, face_surface(x->h, face)->centre, x->edge->end[0]);
+    sub3(direction, hierarchy_surface(x->h, face)->centre, x->edge->end[0]);
     double along = dot3(direction, x->along);
     for (int k = 0; k < 3; k++)
         direction[k] -= along * x->along[k];
@@ -79,7 +79,7 @@ static int is_long(const struct edge_axis *x, const struct stretch *s)
  * where it passes through. */
 static int touches(const struct edge_axis *x, uint32_t face, struct stretch *s)
 {
-    const struct element *e = face_surface(x->h, face);
+    const struct element *e = hierarchy_surface(x->h, face);
     const double(*end)[3] = x->edge->end;
     double low = height3(end[0], e->vertex[0], e->normal),
            high = height3(end[1], e->vertex[0], e->normal);
@@ -117,7 +117,7 @@ int edge_axis_touched(const struct edge_axis *x, struct stretch *list)
 
 int edge_axis_wings(const struct edge_axis *x, uint32_t face, const double p[3], struct wing *wings)
 {
-    const struct element *e = face_surface(x->h, face);
+    const struct element *e = hierarchy_surface(x->h, face);
     double nearest = INFINITY, direction[3];
     for (int i = 0; i < e->vertices; i++)
         nearest = fmin(nearest, inside_border(e, i, p));

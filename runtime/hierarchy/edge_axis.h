@@ -59,9 +59,4 @@ int edge_axis_wings(const struct edge_axis *x, uint32_t face, const double p[3],
 /* From the edge into a face that has it for a border, square to it. */
 void edge_axis_inwards(const struct edge_axis *x, uint32_t face, double direction[3]);
 
-static inline const struct element *face_surface(const struct hierarchy *h, uint32_t face)
-{
-    return &h->elements[h->face_element[face]];
-}
-
 #endif

@@ -89,6 +89,12 @@ int hierarchy_settle(struct hierarchy *h, uint32_t first, uint32_t *place);
 
 void hierarchy_free(struct hierarchy *h);
 
+/* The element that is the whole face. */
+static inline const struct element *hierarchy_surface(const struct hierarchy *h, uint32_t face)
+{
+    return &h->elements[h->face_element[face]];
+}
+
 /* The part of `order` below an element; of a part of a face the face's. */
 static inline struct face_range hierarchy_range(const struct hierarchy *h, uint32_t element)
 {

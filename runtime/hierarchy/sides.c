@@ -120,7 +120,7 @@ static int pair_around(struct pairs *pairs, struct wing *wings, int count)
 /* Mark the sides of a face, through which the edge runs, that those that have it stand on. */
 static void touch_sides(const struct sides *s, const struct edge_axis *x, uint32_t face)
 {
-    const struct element *e = face_surface(x->h, face);
+    const struct element *e = hierarchy_surface(x->h, face);
     for (size_t i = 0; i < x->shared; i++) {
         double direction[3];
         edge_axis_inwards(x, x->edge[i].face, direction);
@@ -207,85 +207,82 @@ static void walk_edges(const void *walk, size_t from, size_t to)
     }
 }
 
-/* What runs have found, one after the other. Returns 0, or -1 when out of memory. */
-static int add_runs(struct pairs *all, struct pairs *run, size_t runs)
-{
-    size_t count = 0;
-    for (size_t r = 0; r < runs; r++)
-        count += run[r].count;
-    if (array_reserve(&all->sides, count + 1, &all->capacity, sizeof *all->sides) < 0)
-        return -1;
-    for (size_t r = 0; r < runs; r++) {
-        if (run[r].count > 0)
-            memcpy(all->sides + all->count, run[r].sides, run[r].count * sizeof *all->sides);
-        all->count += run[r].count;
-    }
-    return 0;
-}
-
-/* What each rank has found, to all. Returns 0, or -1 on all when any is out of memory. */
-static int share_pairs(struct sides *s, struct pairs *mine, struct ranks *ranks)
+/* What runs of each rank have found, one after the other: to all. Returns 0, or -1 on all when any
+ * is out of memory. */
+static int gather_pairs(struct pairs *all, const struct pairs *run, size_t runs,
+                        struct ranks *ranks)
 {
     const size_t n = (size_t)ranks_count(ranks), me = (size_t)ranks_number(ranks);
-    size_t *first = malloc((n + 1) * sizeof *first);
-    uint64_t *touched = malloc((s->far + (size_t)1) * sizeof *touched);
-    uint32_t(*all)[2] = NULL;
-    int failed = ranks_any(ranks, !first || !touched);
+    size_t *first = malloc((n + 1) * sizeof *first), count = 0;
+    for (size_t r = 0; r < runs; r++)
+        count += run[r].count;
+    int failed = ranks_any(ranks, !first);
     if (!failed) {
-        ranks_starts(ranks, RANKS_PAIRS, mine->count, first);
-        all = malloc((first[n] + 1) * sizeof *all);
-        failed = ranks_any(ranks, !all);
+        ranks_starts(ranks, RANKS_PAIRS, count, first);
+        failed = ranks_any(
+            ranks,
+            array_reserve(&all->sides, first[n] + 1, &all->capacity, sizeof *all->sides) < 0);
     }
     if (!failed) {
-        if (mine->count > 0)
-            memcpy(all + first[me], mine->sides, mine->count * sizeof *all);
-        ranks_complete(ranks, RANKS_PAIRS, all, sizeof *all, first);
-        free(mine->sides);
-        *mine = (struct pairs){all, first[n], first[n]};
-        for (uint32_t i = 0; i < s->far; i++)
-            touched[i] = s->touched[i];
-        ranks_add_counts(ranks, RANKS_PAIRS, touched, s->far);
-        for (uint32_t i = 0; i < s->far; i++)
-            s->touched[i] = touched[i] > 0;
-    } else {
-        free(all);
+        all->count = first[me];
+        for (size_t r = 0; r < runs; r++) {
+            if (run[r].count > 0)
+                memcpy(all->sides + all->count, run[r].sides, run[r].count * sizeof *all->sides);
+            all->count += run[r].count;
+        }
+        all->count = first[n];
+        ranks_complete(ranks, RANKS_PAIRS, all->sides, sizeof *all->sides, first);
     }
-    free(touched);
     free(first);
     return failed ? -1 : 0;
 }
 
-/* The pairs of all edges; each rank looks at its part of the runs. Returns 0, or -1 when out of
- * memory. */
+/* What any rank has found touched is. Returns 0, or -1 on all when any is out of memory. */
+static int share_touched(struct sides *s, struct ranks *ranks)
+{
+    if (ranks_count(ranks) == 1)
+        return 0;
+    uint64_t *times = malloc((s->far + (size_t)1) * sizeof *times);
+    const int failed = ranks_any(ranks, !times);
+    for (uint32_t i = 0; i < s->far && !failed; i++)
+        times[i] = s->touched[i];
+    if (!failed)
+        ranks_add_counts(ranks, RANKS_PAIRS, times, s->far);
+    for (uint32_t i = 0; i < s->far && !failed; i++)
+        s->touched[i] = times[i] > 0;
+    free(times);
+    return failed ? -1 : 0;
+}
+
+/* The pairs of all edges; each rank looks at its part of the runs. Returns 0, or -1 on all when any
+ * is out of memory. */
 static int find_pairs(struct sides *s, const struct hierarchy *h, double precision,
                       struct ranks *ranks, int threads, struct pairs *found)
 {
     atomic_int failed = 0;
     struct edge *edges = malloc((4 * (size_t)h->face_count + 1) * sizeof *edges);
-    if (edges) {
-        const size_t count = list_edges(h, edges), all = (count + RUN - 1) / RUN;
-        const int me = ranks_number(ranks);
-        const size_t first = ranks_part(ranks, all, me) * RUN,
-                     past = ranks_part(ranks, all, me + 1) * RUN,
-                     mine = (past < count ? past : count) - (first < count ? first : count),
-                     runs = (mine + RUN - 1) / RUN;
-        struct pairs *run = calloc(runs + 1, sizeof *run);
+    const size_t count = edges ? list_edges(h, edges) : 0, all = (count + RUN - 1) / RUN;
+    const int me = ranks_number(ranks);
+    const size_t first = ranks_part(ranks, all, me) * RUN,
+                 past = ranks_part(ranks, all, me + 1) * RUN,
+                 mine = (past < count ? past : count) - (first < count ? first : count),
+                 runs = (mine + RUN - 1) / RUN;
+    struct pairs *run = calloc(runs + 1, sizeof *run);
+    if (edges && run) {
         qsort(edges, count, sizeof *edges, compare_edges);
         const struct walk walk = {h, s, precision, edges, count, first, run, &failed};
-        if (run)
-            thread_pool_run(threads, mine, RUN, walk_edges, &walk);
-        if (!run || add_runs(found, run, runs) < 0)
-            failed = 1;
-        for (size_t r = 0; run && r < runs; r++)
-            free(run[r].sides);
-        free(run);
-    } else {
-        failed = 1;
+        thread_pool_run(threads, mine, RUN, walk_edges, &walk);
     }
+    const int result = ranks_any(ranks, !edges || !run || failed)
+                               || gather_pairs(found, run, runs, ranks) < 0
+                               || share_touched(s, ranks) < 0
+                           ? -1
+                           : 0;
+    for (size_t r = 0; run && r < runs; r++)
+        free(run[r].sides);
+    free(run);
     free(edges);
-    if (ranks_any(ranks, failed))
-        return -1;
-    return ranks_count(ranks) > 1 ? share_pairs(s, found, ranks) : 0;
+    return result;
 }
 
 int sides_open(struct sides *s, const struct hierarchy *h, double precision, struct ranks *ranks,

@@ -76,7 +76,7 @@ void tracer_point(const struct tracer *t, uint32_t face, double u, double v, dou
 
 static inline const struct element *tracer_surface(const struct tracer *t, uint32_t face)
 {
-    return &t->hierarchy->elements[t->hierarchy->face_element[face]];
+    return hierarchy_surface(t->hierarchy, face);
 }
 
 #endif

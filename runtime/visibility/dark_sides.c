@@ -70,7 +70,7 @@ static int begins(const struct search *s, uint32_t side)
 /* Walk from a side to another of its space, and join them. */
 static void walk(struct search *s, uint32_t from)
 {
-    const struct element *e = &s->h->elements[s->h->face_element[face_of(s->h, from)]];
+    const struct element *e = hierarchy_surface(s->h, face_of(s->h, from));
     double p[3], u = chance(s), v = chance(s);
     surface_even_point(p, e, u, v);
     move_off(s, e, p);
@@ -87,7 +87,7 @@ static void walk(struct search *s, uint32_t from)
             sides_join(&s->sides, from, side);
             return;
         }
-        e = &s->h->elements[s->h->face_element[met]];
+        e = hierarchy_surface(s->h, (uint32_t)met);
         for (int k = 0; k < 3; k++)
             p[k] += distance * d[k];
         double over = height3(p, e->vertex[0], e->normal);
@@ -169,7 +169,7 @@ int dark_sides_find(const struct rays *rays, const struct hierarchy *h, const do
         }
     uint32_t *last = malloc(((size_t)s.sides.far + 1) * sizeof *last);
     s.next = malloc(((size_t)s.sides.far + 1) * sizeof *s.next);
-    const int failed = !last || !s.next;
+    const int failed = ranks_any(ranks, !last || !s.next);
     if (!failed && s.lit != UINT32_MAX) {
         list_spaces(&s, last);
         for (uint32_t i = 0; i < s.sides.far; i++)
