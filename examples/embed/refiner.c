@@ -355,6 +355,9 @@
 /* particles. Where a polygon is met by so many, what its replicates say of its noise has half the
  * weight that it has where many land: their own variance is then twice as uncertain */
 #define REFINER_FACE_ERROR_FEW 16.0
+/* particles. Of so many on a polygon, and more, what halves of the replicates have the one less the
+ * other is as large in the mean as what all are off: to 1.3 % */
+#define REFINER_FACE_ERROR_MANY 4.0
 /* polygons. A class of so many tells by its own replicates half of what noise adds to moduli: as
  * uncertain by then as a hundredth of it; chosen */
 #define REFINER_FACE_ERROR_ALIKE 100.0

@@ -203,7 +203,8 @@ static double variance_seen(const struct counted *c, size_t i)
     return sum / (REPLICATES * (REPLICATES - 1.0));
 }
 
-/* s and the class of every value. */
+/* s and the class of every value; how many particles it has by the solution, as far as what is
+ * counted allows that, until weights are asked for. */
 static void find_deviations(struct counted *c, const struct problem *p, const struct hierarchy *h,
                             const struct tally *tally)
 {
@@ -226,6 +227,7 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
             double drawn = fmin(c->mean[i] + reach, fmax(c->mean[i] - reach, c->solved[i]));
             by_chance =
                 rho[i] * rho[i] * tally_chance(tally, 0.5 * (c->mean[i] + drawn) / rho[i], band);
+            c->weight[i] = drawn / (rho[i] * one);
         }
         int class = particles > 1 ? (int)(0.5 * log2(particles)) : 0;
         c->class[i] = (unsigned char)(class < CLASSES ? class : CLASSES - 1);
@@ -267,6 +269,24 @@ static void all_splits(double x[REPLICATES])
             }
 }
 
+/* The mean |n - count| of a Poisson number n of that mean over the mean difference of two numbers
+ * of half of it: by that halves of the replicates show too little where few particles come, 2 where
+ * next to none do. */
+static double few_moduli(double count)
+{
+    if (!(count > 0) || count >= FACE_ERROR_MANY)
+        return 1;
+    const double most = floor(count);
+    double term = 1, bessel = 0, off = 2 * count;
+    for (int i = 0; term > 1e-9 * bessel; i++) { /* I0 + I1 */
+        bessel += term * (1 + 0.5 * count / (i + 1));
+        term *= 0.25 * count * count / ((i + 1.0) * (i + 1.0));
+    }
+    for (int i = 1; i <= most; i++)
+        off *= count / i;
+    return off / (count * bessel);
+}
+
 /* How uncertain the moduli of noise are in a class, whose polygons have 4^class particles or more,
  * as a share. */
 static double doubt_of(int class)
@@ -290,7 +310,7 @@ static void find_scales(struct counted *c)
         all_splits(off);
         for (unsigned split = 1; split < REPLICATES; split++)
             sum += fabs(off[split]) / (REPLICATES - 1);
-        apart[c->class[i]] += sum;
+        apart[c->class[i]] += sum * few_moduli(c->weight[i]);
         normal[c->class[i]] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
         count[c->class[i]]++;
     }
@@ -304,21 +324,38 @@ static void find_scales(struct counted *c)
                 : 1;
 }
 
+/* The deviation of noise whose moduli are as large (W). */
+static double noise_by_moduli(const struct counted *c, size_t i)
+{
+    return c->deviation[i] * c->scale[c->class[i]];
+}
+
+/* The bin of a value; BINS: its error is as it is seen. Where next to no particle comes moduli are
+ * small because few values have them all, so an error has to stand out of squares as well. */
+static int bin_of(const struct counted *c, size_t i)
+{
+    const double s = noise_by_moduli(c, i), off = fabs(c->solved[i] - c->mean[i]);
+    if (off >= FACE_ERROR_CERTAIN * fmax(s, c->deviation[i]))
+        return BINS;
+    return (int)fmin(off / s * (BINS / FACE_ERROR_CERTAIN), BINS - 1);
+}
+
 /* Put values into bins and find their errors. */
 static void find_errors(struct counted *c)
 {
     double seen[CLASSES] = {0};
     for (size_t i = 0; i < c->values; i++) {
-        double rms = c->deviation[i], s = rms * c->scale[c->class[i]],
+        double rms = c->deviation[i], s = noise_by_moduli(c, i),
                off = fabs(c->solved[i] - c->mean[i]);
         if (!(s > 0))
             continue;
-        if (off >= FACE_ERROR_CERTAIN * s) {
+        const int at = bin_of(c, i);
+        if (at == BINS) {
             c->sure += off;
             c->sure_square += s * s;
             continue;
         }
-        struct bin *b = &c->bin[c->class[i]][(int)(off / s * (BINS / FACE_ERROR_CERTAIN))];
+        struct bin *b = &c->bin[c->class[i]][at];
         b->s += s;
         b->square += s * s;
         b->x += off;
@@ -428,9 +465,9 @@ static struct RadMeasure measure_l1(struct counted *c)
             observed += c->bin[k][i].x;
     for (size_t i = 0; i < c->values; i++) { /* d |e^| / d R^, and that of the reflected light */
         double off = c->solved[i] - c->mean[i];
-        double s = c->deviation[i] * c->scale[c->class[i]], x = s > 0 ? off / s : 0;
-        if (fabs(x) < FACE_ERROR_CERTAIN && s > 0) {
-            double m = c->bin[c->class[i]][(int)(fabs(x) * (BINS / FACE_ERROR_CERTAIN))].error;
+        double s = noise_by_moduli(c, i), x = s > 0 ? off / s : 0;
+        if (s > 0 && bin_of(c, i) < BINS) {
+            double m = c->bin[c->class[i]][bin_of(c, i)].error;
             x = x < 0 ? -m : m;
         }
         double slope = erf(x / sqrt(2));

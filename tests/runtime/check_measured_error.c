@@ -116,6 +116,34 @@ END_TEST
 /* Of tens of thousands of faces chance leaves nothing open; what is not known of the noise itself
  * does. Errors well below it are covered; the lower end, which takes errors for more evenly spread
  * than a third of the faces, is up to a tenth too high. */
+/* Thousands of faces that next to no particle meets: of a solution that is right, noise is all that
+ * is seen. */
+START_TEST(test_few)
+{
+    static const double each[] = {0.01, 0.05, 0.3, 2};
+    const int streams = thorough() ? 100 : 24;
+    for (int i = 0; i < 4; i++) {
+        struct cover c = {0, 0, 0, 0};
+        struct chance chance = {hash64(77 + (uint64_t)i)};
+        struct scene scene;
+        struct solve s;
+        double *truth = tiled_open(&scene, &s, 40, &chance);
+        struct tracer t = tracer_over(&s, 1);
+        double *solved = calloc((size_t)s.hierarchy.count * scene.bands, sizeof *solved);
+        spoil(&s, truth, solved, 0, &chance);
+        for (int r = 0; r < streams; r++) {
+            struct tally y;
+            traced(&y, &t, (uint64_t)r + 1, (int)(each[i] * scene.input_count));
+            judge(&s, truth, solved, &y, &c);
+            tally_close(&y);
+        }
+        say("few particles", &c);
+        check_misses("few particles, l1", c.l1_below + c.l1_above, c.trials);
+        close_known(&s, &scene, &t, truth, solved);
+    }
+}
+END_TEST
+
 START_TEST(test_many)
 {
     static const int tiles[] = {20, 60}, particles[] = {16, 64};
@@ -742,6 +770,7 @@ int main(void)
     TCase *tests = tcase_create("");
     tcase_set_timeout(tests, thorough() ? 3000 : 60);
     tcase_add_test(tests, test_coverage);
+    tcase_add_test(tests, test_few);
     tcase_add_test(tests, test_many);
     tcase_add_test(tests, test_sure);
     tcase_add_test(tests, test_mended);
