@@ -157,6 +157,7 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
     struct mending_goal goal = {.noise = noise, .most = o->rays, .own = o->own};
     if (!o->rays) {
         goal.left = o->noise > 0 ? 0 : RAD_CORRECT_LEFT;
+        goal.power = RAD_CORRECT_POWER;
         goal.plain = RAD_CORRECT_PLAIN;
         goal.places = RAD_CORRECT_PLACES;
         goal.least = RAD_CORRECT_LEAST;

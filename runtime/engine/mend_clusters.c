@@ -19,7 +19,11 @@
  * particles land, or should by links, replicates say little, and where none did, nothing: then
  * chance alone. In sums over a class it is the replicates' own, v, which is right in the mean.
  *
- * The scene has no class: its k is believed as far as it is no accident.
+ * The scene has no class: its k is believed as far as it is no accident. So is the sum of all light
+ * that faces reflect: what a lamp's box lets out is spread over as many clusters as are around it,
+ * and in each the links' error may be below its threshold, always to the same side. What the mended
+ * sum is off more than the scene would be is taken from faces by how noisy what was counted there
+ * is: of all ways to bring a sum to what is known of it the likeliest.
  *
  * [Stein 1981, the unbiased estimate of that error; Donoho and Johnstone 1995, a threshold by it;
  * Breiman 1995 and Gao 1998, this h, the garrote]
@@ -220,6 +224,72 @@ static void mend_scene(const struct mend_sums *m, uint32_t k, double *irradiance
     irradiance[k] = (linked + belief * off) / m->op->hierarchy->elements[0].area;
 }
 
+/* What is left of a difference that is as noisy as that once it is believed as far as it is no
+ * accident; and where nothing is believed, the most that it may be. */
+static double left_of(double off, double noise)
+{
+    const double least = 1 + MEND_EVIDENCE * sqrt(2);
+    return off * off > least * noise ? noise / fabs(off) : sqrt(least * noise);
+}
+
+/* Is it a face that this rank adds to sums? */
+static int is_own_face(const struct mend_sums *m, uint32_t e)
+{
+    return m->op->hierarchy->elements[e].vertices && mend_is_added(m->op, e);
+}
+
+static double reflectance_of(const struct mend_sums *m, uint32_t e, uint32_t k)
+{
+    const struct element *at = &m->op->hierarchy->elements[e];
+    return m->op->problem->reflectance[(size_t)at->face * m->bands + k];
+}
+
+/* The variance of what was counted on a face (W2). */
+static double noise_of_face(const struct mend_sums *m, uint32_t e, uint32_t k)
+{
+    return noise_of(m, e, e, k, 0, m->received[mend_at(m, e, k)]);
+}
+
+/* By how much all that faces reflect, mended, is to be less (W). *covers: the sum over faces of the
+ * variance of what they reflect as counted (W2). */
+static double sum_is_above(const struct mend_sums *m, const double *irradiance, double *covers)
+{
+    const struct hierarchy *h = m->op->hierarchy;
+    const size_t values = (size_t)m->places.built * m->bands;
+    enum { MENDED = REPLICATES, LINKED, COVERS, SUMS };
+    double sum[SUMS] = {0}, counted = 0, noise = 0;
+    for (uint32_t e = 0; e < h->built; e++)
+        for (uint32_t k = 0; k < m->bands && is_own_face(m, e); k++) {
+            const double rho = reflectance_of(m, e, k);
+            for (size_t r = 0; r < REPLICATES; r++)
+                sum[r] += rho * m->replicate[r * values + mend_at(m, e, k)];
+            sum[MENDED] += rho * h->elements[e].area * irradiance[(size_t)e * m->bands + k];
+            sum[LINKED] += rho * m->linked[mend_at(m, e, k)];
+            sum[COVERS] += rho * rho * noise_of_face(m, e, k);
+        }
+    mend_add_up(m, sum, SUMS);
+    for (int r = 0; r < REPLICATES; r++)
+        counted += sum[r] / REPLICATES;
+    for (int r = 0; r < REPLICATES; r++)
+        noise += (sum[r] - counted) * (sum[r] - counted) / (REPLICATES * (REPLICATES - 1.0));
+    const double off = sum[MENDED] - counted, left = left_of(sum[LINKED] - counted, noise);
+    *covers = sum[COVERS];
+    return off > left ? off - left : off < -left ? off + left : 0;
+}
+
+static void settle_sum(const struct mend_sums *m, double *irradiance)
+{
+    double covers;
+    const double above = sum_is_above(m, irradiance, &covers);
+    for (uint32_t e = 0; e < m->op->hierarchy->built && above != 0 && covers > 0; e++)
+        for (uint32_t k = 0; k < m->bands && is_own_face(m, e); k++) {
+            double *light = &irradiance[(size_t)e * m->bands + k];
+            const double less = above * reflectance_of(m, e, k) * noise_of_face(m, e, k) / covers
+                                / m->op->hierarchy->elements[e].area;
+            *light = fmax(*light - less, 0.5 * *light);
+        }
+}
+
 static int clusters_open(struct clusters *x)
 {
     const struct mend_sums *m = x->sums;
@@ -250,6 +320,8 @@ int mend_clusters(const struct mend_sums *m, double *irradiance, double *doubt)
     for (size_t i = 0; i < x.count && !failed; i++) /* they get light from those before them */
         for (uint32_t k = 0; k < m->bands; k++)
             share_out(&x, x.parent[i], k, &x.note[i * m->bands + k], irradiance, doubt);
+    if (!failed)
+        settle_sum(m, irradiance);
     free(x.parent);
     free(x.note);
     return failed ? -1 : 0;

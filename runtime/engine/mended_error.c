@@ -10,13 +10,18 @@
  * made up for by many small ones.
  *
  * As for places (ray_split.c), links of an error l and particles of a noise n together have
- * 1 / e^2 = 1 / l^2 + 1 / n^2; r times the particles have 1 / l^2 + r / n^2. [Derived here]
+ * 1 / e^2 = 1 / l^2 + 1 / n^2; r times the particles have 1 / l^2 + r / n^2.
+ *
+ * Where few particles bring the light of many polygons, as through a hole in a lamp's box, these
+ * are off together. The sum of errors is small in the mean then and large by chance, so all
+ * reflected light has to be known for itself. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 #include "engine/mend.h"
 #include "engine/mended_error.h"
 #include "engine/polygon_rows.h"
+#include "engine/reflected_light.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 
@@ -68,18 +73,30 @@ double mended_error_wanted(double error, double noise, double goal)
     return noise * noise / (goal * goal) - noise * noise / (error * error) + 1;
 }
 
+/* How many times the tally tells all reflected light as surely as is wanted. */
+static double power_times(const struct solve *s, const struct tally *tally,
+                          const struct mending_goal *goal)
+{
+    double variance;
+    const double light = reflected_light(&s->problem, tally, &variance), most = goal->power * light;
+    return most > 0 ? variance / (most * most) : 0;
+}
+
 int mended_error_times(const struct solve *s, const struct tally *tally,
                        const struct mending_goal *goal, double *times, double *alone)
 {
+    const double for_power = power_times(s, tally, goal);
     struct face_noise noise;
     double left;
     if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0)
         return -1;
     *times = *alone = noise.all * noise.all / (goal->noise * goal->noise);
-    if (!(*times > 1 && goal->left > 0 && tally->rays >= goal->plain))
-        return 0;
-    if (mended_error_find(s, tally, &noise, &left) < 0)
-        return -1;
-    *times = fmin(*times, mended_error_wanted(left, noise.all, goal->left));
+    if (*times > 1 && goal->left > 0 && tally->rays >= goal->plain) {
+        if (mended_error_find(s, tally, &noise, &left) < 0)
+            return -1;
+        *times = fmin(*times, mended_error_wanted(left, noise.all, goal->left));
+    }
+    *times = fmax(*times, for_power);
+    *alone = fmax(*alone, for_power);
     return 0;
 }

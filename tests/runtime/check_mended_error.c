@@ -2,12 +2,15 @@
  * of their error what mending says? Truths are closed forms, links are the truth spoilt by chance
  * (spoilt.h).
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include "runtime/spoilt.h"
 #include "engine/mend.h"
 #include "engine/measured_error.h"
 #include "engine/mended_error.h"
+#include "engine/reflected_light.h"
+#include "kernel/constants.h"
 
 /* Means over some runs, as shares of the reflected light: of L1 errors of polygons before and after
  * mending, of what is said of the last, and of the noise of particles alone. */
@@ -147,6 +150,92 @@ START_TEST(test_spares)
 }
 END_TEST
 
+/* As many as all reflected light wants, where each face would do with fewer. */
+START_TEST(test_power)
+{
+    struct chance chance = {hash64(41)};
+    struct scene scene;
+    struct solve s;
+    struct tally y;
+    double *truth = tiled_open(&scene, &s, 4, &chance), variance, times, alone;
+    struct tracer t = tracer_over(&s, 1);
+    traced(&y, &t, 1, 4096);
+    const double light = reflected_light(&s.problem, &y, &variance);
+    struct mending_goal goal = {.noise = 0.9, .power = 0.5 * sqrt(variance) / light};
+    ck_assert_int_eq(mended_error_times(&s, &y, &goal, &times, &alone), 0);
+    ck_assert_double_eq_tol(times, 4, 1e-9);
+    ck_assert_double_eq_tol(alone, 4, 1e-9);
+    goal.power = 0;
+    ck_assert_int_eq(mended_error_times(&s, &y, &goal, &times, &alone), 0);
+    ck_assert_double_lt(times, 1);
+    tally_close(&y);
+    close_known(&s, &scene, &t, truth, NULL);
+}
+END_TEST
+
+/* What all faces reflect (W). */
+static double sum_of(const struct solve *s, const double *irradiance)
+{
+    const uint32_t bands = s->problem.bands;
+    double sum = 0;
+    for (uint32_t f = 0; f < s->hierarchy.face_count; f++)
+        for (uint32_t k = 0; k < bands; k++) {
+            const uint32_t at = s->hierarchy.face_element[f];
+            sum += s->problem.reflectance[f * bands + k] * s->hierarchy.elements[at].area
+                   * irradiance[at * bands + k];
+        }
+    return sum;
+}
+
+/* Links that have so many standard errors of what is counted too much on faces that reflect more
+ * than others, and as much less on those: all that falls on faces is right. By how much of what
+ * links are off from what was counted may their mended sum be? */
+static void check_sum(double many, uint64_t seed)
+{
+    struct chance chance = {hash64(seed)};
+    struct scene scene;
+    struct solve s;
+    struct tally y;
+    double *truth = tiled_open(&scene, &s, 8, &chance), variance, mean = 0, tilt = 0;
+    const uint32_t faces = scene.face_count, bands = scene.bands;
+    const size_t values = (size_t)s.hierarchy.count * bands;
+    double *links = calloc(values, sizeof *links), *after = calloc(values, sizeof *after);
+    struct tracer t = tracer_over(&s, 1);
+    traced(&y, &t, seed, 16 * (int)faces);
+    const double counted = reflected_light(&s.problem, &y, &variance), noise = sqrt(variance);
+    for (uint32_t f = 0; f < faces; f++)
+        mean += s.problem.reflectance[f * bands] / faces;
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t f = 0; f < faces; f++)
+            for (uint32_t k = 0; k < bands; k++) {
+                const uint32_t at = s.hierarchy.face_element[f];
+                const double off = s.problem.reflectance[f * bands] - mean,
+                             light = s.problem.reflectance[f * bands + k]
+                                     * s.hierarchy.elements[at].area * truth[f * bands + k];
+                tilt += pass ? 0 : light * off;
+                links[at * bands + k] =
+                    truth[f * bands + k] * (1 + (pass && tilt > 0 ? many * noise / tilt * off : 0));
+            }
+    ck_assert_int_eq(mend_faces(&s.operator, & y, links, after, NULL), 0);
+    const double off = fabs(sum_of(&s, after) - counted),
+                 linked = fabs(sum_of(&s, links) - counted),
+                 evidence = sqrt(1 + MEND_EVIDENCE * sqrt(2)) * noise;
+    ck_assert_double_le(off, (linked > evidence ? noise * noise / linked : evidence) * (1 + 1e-9)
+                                 + 1e-9 * counted);
+    tally_close(&y);
+    free(after);
+    close_known(&s, &scene, &t, truth, links);
+}
+
+/* Where each cluster's error is below what is believed of it, the sum of all is not. */
+START_TEST(test_sums)
+{
+    for (uint64_t seed = 1; seed <= 24; seed++)
+        for (double many = 0; many < 5; many += 2)
+            check_sum(many, seed);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("mended error");
@@ -157,6 +246,8 @@ int main(void)
     tcase_add_test(tests, test_large);
     tcase_add_test(tests, test_wanted);
     tcase_add_test(tests, test_spares);
+    tcase_add_test(tests, test_power);
+    tcase_add_test(tests, test_sums);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
 }
