@@ -1152,8 +1152,8 @@ struct RadExchangeState {
 
 struct RadExchangeOptions {
     /* error to work for; 0: 3e-4. Of a row's sum; and of entries, as a share of the entry, or,
-     * where that is smaller, of 1e-4 (in half shadow in scenes of more than 24 faces: of four over
-     * the root of their number) */
+     * where that is smaller, of 1e-4 (in half shadow in scenes of more than 24 polygons: of four
+     * over the root of the number of faces that they are cut into) */
     double tolerance;
     enum RadClosure closure;
     /* only the first so many rows are asked for, as of a scene whose other polygons are copies; the

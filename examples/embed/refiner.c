@@ -554,9 +554,13 @@
 #define REFINER_CLEAR_POINTS_REST 5.0
 /* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
 #define REFINER_SIGHT_FLOOR 1e-4
-/* faces. In larger scenes it is a share of so much over the root of their number: errors of a row's
- * entries add up like chance, and are a few times below what is estimated; chosen */
+/* polygons. In larger scenes it is a share of so much over the root of the number of faces: errors
+ * of a row's entries add up like chance, and are a few times below what is estimated; chosen */
 #define REFINER_SIGHT_FEW_FACES 24
+/* of the tolerance. In small scenes estimates have to be that small: each entry is looked at for
+ * itself there, and of 1,600 past one to three plates a few are off by up to four times what is
+ * estimated */
+#define REFINER_SIGHT_FEW_SURE 0.25
 #define REFINER_SIGHT_FLOOR_MANY 4.0
 /* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
 #define REFINER_SIGHT_PIECES 8192

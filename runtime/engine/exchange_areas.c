@@ -132,13 +132,14 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
                         const struct scene *scene, const struct refinement *refinement,
                         const struct exchange_aim *how)
 {
-    *m = (struct exchange_areas){.tree = tree,
-                                 .faces = tree->h.face_count,
-                                 .inputs = scene->input_count,
-                                 .rows = how->rows ? how->rows : scene->input_count,
-                                 .limits = sight_limits_for(how->tolerance, tree->h.face_count),
-                                 .refinement = how->stream ? refinement : NULL,
-                                 .ranks = how->ranks};
+    *m = (struct exchange_areas){
+        .tree = tree,
+        .faces = tree->h.face_count,
+        .inputs = scene->input_count,
+        .rows = how->rows ? how->rows : scene->input_count,
+        .limits = sight_limits_for(how->tolerance, scene->input_count, tree->h.face_count),
+        .refinement = how->stream ? refinement : NULL,
+        .ranks = how->ranks};
     if (find_inputs(m, scene) == 0 && exchange_faces_open(&m->shapes, tree) == 0) {
         struct exchange_tiles t = exchange_tiles(m, refinement);
         while (exchange_tiles_next(&t))

@@ -19,6 +19,7 @@
 #include <string.h>
 #include "engine/exchange_sight.h"
 #include "engine/face_rule.h"
+#include "engine/sight_missed.h"
 #include "engine/sight_outlines.h"
 #include "engine/sight_rims.h"
 #include "kernel/constants.h"
@@ -56,10 +57,11 @@ struct looking {
     double clear;         /* of the roots (m2) */
 };
 
-struct sight_limits sight_limits_for(double tolerance, uint32_t faces)
+struct sight_limits sight_limits_for(double tolerance, uint32_t polygons, uint32_t faces)
 {
-    int few = faces <= SIGHT_FEW_FACES;
-    return (struct sight_limits){tolerance, few ? SIGHT_FLOOR : SIGHT_FLOOR_MANY / sqrt(faces),
+    int few = polygons <= SIGHT_FEW_FACES;
+    return (struct sight_limits){few ? SIGHT_FEW_SURE * tolerance : tolerance,
+                                 few ? SIGHT_FLOOR : SIGHT_FLOOR_MANY / sqrt(faces),
                                  few ? SIGHT_PIECES : SIGHT_PIECES_MANY,
                                  faces < SIGHT_LIST ? (int)faces : SIGHT_LIST, !few};
 }
@@ -332,6 +334,20 @@ static int has_room(const struct looking *l, int pieces)
     return l->nodes + l->cast * (RAYS_COUNT - 1) + pieces <= l->scratch->limits.pieces;
 }
 
+/* At most what is missed of a piece's shades, where neither its own points nor its quarters' see
+ * them (m2). */
+static double missed(const struct looking *l, int at)
+{
+    const struct sight_node *node = &l->scratch->nodes[at],
+                            *quarters = &l->scratch->nodes[node->quarters];
+    struct sight_eyes eyes;
+    sight_eyes_open(&eyes, &l->sight, l->tree->host.ray_offset);
+    sight_eyes_add(&eyes, &node->piece);
+    for (int q = 0; q < QUARTERS; q++)
+        sight_eyes_add(&eyes, &quarters[q].piece);
+    return sight_missed(&eyes, &node->piece, l->to, l->tree, list_of(l, at), node->count);
+}
+
 /* Hold a piece against its quarters, which count from now on. */
 static void divide(struct looking *l, int at)
 {
@@ -358,6 +374,8 @@ static void divide(struct looking *l, int at)
         return;
     }
     node->error = fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * node->rest);
+    if (!l->scratch->limits.many)
+        node->error += missed(l, at);
 }
 
 /* Hold a piece against its rim and its quarters; in scenes of many faces, whose entries are many,

@@ -36,8 +36,8 @@ static inline int sight_enough(const struct sight_limits *limits, double error, 
     return error <= limits->tolerance * fmax(value, limits->floor * least);
 }
 
-/* Limits for a scene of so many faces. */
-struct sight_limits sight_limits_for(double tolerance, uint32_t faces);
+/* Limits for a scene of so many polygons, and the faces that these are cut into. */
+struct sight_limits sight_limits_for(double tolerance, uint32_t polygons, uint32_t faces);
 /* Returns 0, or -1 when out of memory; close is fine then too. */
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits);
 void sight_scratch_close(struct sight_scratch *scratch);

@@ -162,6 +162,11 @@ static int beside(const struct outline *s, const struct outline_cell *cell)
     return 0;
 }
 
+int sight_shade_meets(const struct outline *shade, const struct outline_cell *cell)
+{
+    return !beside(shade, cell) && !beside_cell(shade, cell);
+}
+
 /* Does the shadow hide all of the cell? */
 static int covers(const struct outline *s, const struct outline_cell *cell)
 {

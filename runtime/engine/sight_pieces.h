@@ -84,4 +84,7 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
                     const struct exchange_tree *tree, const uint32_t *faces, int count,
                     double *whole);
 
+/* Does a shadow fall on the polygon? What only touches does not. */
+int sight_shade_meets(const struct outline *shade, const struct outline_cell *cell);
+
 #endif

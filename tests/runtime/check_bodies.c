@@ -454,7 +454,7 @@ START_TEST(test_horizon)
     double values[16][16], most = 0, part = 0;
     open_ball(&s, _i);
     open_tree(&t, &s);
-    const struct sight_limits limits = sight_limits_for(3e-4, s.face_count);
+    const struct sight_limits limits = sight_limits_for(3e-4, s.input_count, s.face_count);
     const struct element *r = group_of(&t, 0), *e = group_of(&t, 16);
     const struct exchange_pair pair = {&t, r, e,
                                        hierarchy_range(&t.h, (uint32_t)(r - t.h.elements)),
