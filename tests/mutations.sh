@@ -119,6 +119,8 @@ paths go on to their noise | runtime/engine/mended_error.c | s/goal->left > 0 \&
 no link spares a ray | runtime/engine/measured_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error
 small shades are missed | runtime/engine/exchange_sight.c | s/node->error += missed(l, at);/(void)missed;/ | runtime/check_entries
 parts of polygons count | runtime/engine/exchange_areas.c | s/how->tolerance, scene->input_count,/how->tolerance, tree->h.face_count,/ | runtime/check_entries
+faint pairs see all of each other | runtime/engine/exchange_sight.c | s/    return clear \* v;/    return clear;/ | runtime/check_entries
+faint pairs see nothing | runtime/engine/exchange_sight.c | s/    return clear \* v;/    return 0 * clear;/ | runtime/check_entries
 few particles seem normal | runtime/engine/face_error.c | s/count >= FACE_ERROR_MANY/1/ | runtime/check_measured_error
 a lone count is sure | runtime/engine/face_error.c | s/fmax(s, c->deviation\[i\]))/s)/ | runtime/check_measured_error
 sums of clusters as they come | runtime/engine/mend_clusters.c | s/^        settle_sum(m, irradiance);/        (void)settle_sum;/ | runtime/check_mended_error

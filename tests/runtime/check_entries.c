@@ -147,6 +147,63 @@ START_TEST(test_crossing_faces)
 }
 END_TEST
 
+/* Boxes in a row, each turned on its feet: what is far apart sees little of each other, with all
+ * the others between. */
+enum { BOXES = 24, BOX_FACES = 5 * BOXES };
+static void open_row_of_boxes(void)
+{
+    clear();
+    for (int b = 0; b < BOXES; b++) {
+        const double turn = 0.7 * b, u[3] = {cos(turn), sin(turn), 0}, v[3] = {-u[1], u[0], 0},
+                     up[3] = {0, 0, 1}, minus_u[3] = {-u[0], -u[1], 0},
+                     minus_v[3] = {u[1], -u[0], 0};
+        double at[5][3];
+        for (int k = 0; k < 3; k++) {
+            const double corner = (k == 0 ? 2.0 * b : k == 1 ? 3 * sin(b) : 0) - 0.5 * u[k] - 0.5 * v[k];
+            at[0][k] = corner;
+            at[1][k] = corner + u[k];
+            at[2][k] = corner + u[k] + v[k];
+            at[3][k] = corner + v[k];
+            at[4][k] = corner + up[k];
+        }
+        rectangle(at[0], u, up);
+        rectangle(at[1], v, up);
+        rectangle(at[2], minus_u, up);
+        rectangle(at[3], minus_v, up);
+        rectangle(at[4], u, v);
+    }
+}
+
+/* Pairs that exchange far less than the error that is allowed are asked by few rays. With an
+ * allowance of a thousandth none is: by that entries are right to an eighth of what is allowed, and
+ * their sum is right, as rays err to either side. */
+START_TEST(test_faint)
+{
+    static double coarse[BOX_FACES * BOX_FACES], fine[BOX_FACES * BOX_FACES], areas[BOX_FACES];
+    const double tolerance = 1e-2;
+    double off = 0, faint = 0, doubt = 0;
+    int pairs = 0;
+    open_row_of_boxes();
+    factors(BOX_FACES, tolerance, coarse, areas);
+    factors(BOX_FACES, 1e-3 * tolerance, fine, areas);
+    const double allowed = tolerance * 4 / sqrt(BOX_FACES);
+    for (int i = 0; i < BOX_FACES * BOX_FACES; i++) {
+        const double error = coarse[i] - fine[i];
+        ck_assert_double_le(fabs(error), fmax(tolerance * fine[i], allowed));
+        if (!(fine[i] > 0) || fine[i] > allowed / 8)
+            continue;
+        ck_assert_double_le(fabs(error), allowed / 8);
+        pairs++;
+        faint += fine[i];
+        off += error;
+        doubt += error * error;
+    }
+    ck_assert_int_gt(pairs, 300);
+    /* both entries of a pair have one error */
+    ck_assert_double_le(fabs(off), 2 * sqrt(2 * doubt) + 0.01 * faint);
+}
+END_TEST
+
 static double chance(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
@@ -244,6 +301,7 @@ int main(void)
     tcase_add_test(tests, test_crossing_planes);
     tcase_add_test(tests, test_small_shades);
     tcase_add_test(tests, test_crossing_faces);
+    tcase_add_test(tests, test_faint);
     tcase_add_test(tests, test_random_scenes);
     return suite_failures(suite);
 }
