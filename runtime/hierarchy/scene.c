@@ -327,14 +327,17 @@ static void name_turned(struct RadTurnedPolygons *all, uint32_t polygon)
 /* Which polygons look turned. Returns 0 or -1. */
 static int find_turned(struct builder *b)
 {
-    struct scene *s = b->scene;
     b->turned = malloc((size_t)b->polygons->count + 1);
-    if (!b->turned || shells_find(b->polygons, s->materials, b->turned) < 0)
-        return -1;
-    for (uint32_t i = 0; i < b->polygons->count; i++)
-        if (b->turned[i] != TURNED_NOT)
+    return b->turned && shells_find(b->polygons, b->scene->materials, b->turned) == 0 ? 0 : -1;
+}
+
+/* What has no area has no side that it could turn. */
+static void name_all_turned(const struct builder *b)
+{
+    struct scene *s = b->scene;
+    for (uint32_t i = 0; i < s->input_count && b->turned; i++)
+        if (b->turned[i] != TURNED_NOT && s->areas[i] > 0)
             name_turned(b->turned[i] == TURNED_CLOSED ? &s->turned_closed : &s->turned_open, i);
-    return 0;
 }
 
 static int build(struct builder *b, int threads)
@@ -368,6 +371,7 @@ static int build(struct builder *b, int threads)
             return out_of_memory(b->error);
         at += size_of(b->polygons, i);
     }
+    name_all_turned(b);
     if (!scene->face_count)
         return fail(b->error, RAD_ERROR_INVALID_SCENE,
                     "all of its %u faces are degenerate; give one face with an area",

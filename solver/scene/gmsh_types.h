@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+enum { GMSH_TYPES = 140 }; /* the last one */
+
 /* Corners of a face; 0: a point or a line; -1: something else. */
 static inline int corners_of(int64_t type)
 {

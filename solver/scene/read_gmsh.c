@@ -363,6 +363,10 @@ static int read_element(struct gmsh *g, int64_t type, int64_t group)
 {
     const int all = nodes_of(type), corners = corners_of(type);
     int64_t ignored;
+    if (type < 1 || type > GMSH_TYPES)
+        return report_error(g->mesh.path, g->lines.number,
+                            "an element of type %lld: types are 1 to %d", (long long)type,
+                            GMSH_TYPES);
     if (!g->bytes)
         return read_corners(g, type, group);
     if (!all)

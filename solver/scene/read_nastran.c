@@ -321,7 +321,8 @@ int read_nastran(struct scene_file *f, const char *path, char *text, size_t size
     int result = 0;
     if (memchr(text, 0, size))
         return report_error(path, 0, "not a text; export it as Nastran bulk data (not OP2)");
-    const char *const end = text + size, *line = text + bulk_begins(text, size);
+    const size_t begins = bulk_begins(text, size);
+    const char *const end = text + size, *line = text + begins;
     uint32_t number = 1;
     for (const char *c = text; c < line; c++)
         number += *c == '\n';
@@ -331,6 +332,9 @@ int read_nastran(struct scene_file *f, const char *path, char *text, size_t size
         result = read_line(&a, line, last, number);
         line = last + (broken ? broken : 1);
     }
+    if (begins && !result && !quiet)
+        report_warning(path, number - 1,
+                       "ends without ENDDATA, which belongs behind BEGIN BULK: is it cut off?");
     if (result >= 0)
         result = finish_card(&a) || nastran_systems_place(&a.systems, &a.mesh)
                          || mesh_finish(&a.mesh, quiet)

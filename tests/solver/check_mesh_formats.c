@@ -646,6 +646,14 @@ START_TEST(test_refusals)
          "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
          "1 4 0 1 2 3 4\n$EndElements\n",
          ":9: error: there are volumes in it and no face"},
+        {"a.msh",
+         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
+         "1 4294967297 0 1 2 3\n$EndElements\n",
+         ":9: error: an element of type 4294967297: types are 1 to 140"},
+        {"a.msh",
+         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
+         "1 -7 0 1 2 3\n$EndElements\n",
+         ":9: error: an element of type -7"},
         {"a.bdf", "GRID,1,,0,0,0\nCTRIA3,1,1,1,2,3\n", ":2: error: this face names node 2"},
         {"a.bdf", "GRID,1,4,0,0,0\n", ":1: error: GRID 1 is in coordinate system 4, which is not"},
         {"a.bdf",

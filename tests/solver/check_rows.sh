@@ -42,6 +42,10 @@ factors cube.obj
 silent 'looks turned'
 figure to_backs_mean 0 0
 cp m.csv cube.csv
+{ sed "/^f/d" cube.obj; echo "v 2 0 0"; printf "f %s\n" "1 2 9" "1 2 3 4" "5 8 7 6"; } >flat.obj # no area, so no side
+factors flat.obj
+told '1 degenerate faces dropped'
+silent 'looks turned'
 factors turned.obj
 told 'turned.obj:13: warning: looks turned, with its back to the light: face 3 (line 13) (of closed shells: --flip-closed'
 grep -q '^to backs  16.67 % of what all faces send; up to 20.00 % of one of 5 rows' out || failed "backs are not told"
