@@ -217,7 +217,11 @@ double exchange_areas_error(const struct exchange_areas *m)
                 for (uint32_t k = 0; b->error > 0 && k < (column ? b->rows : b->columns); k++) {
                     if (!(sum[input[k]] > 0))
                         met[count++] = input[k];
-                    sum[input[k]] += b->error;
+                    sum[input[k]] +=
+                        b->error
+                        * fmin(
+                            exchange_tree_face(m->tree, p)->area,
+                            exchange_tree_face(m->tree, (column ? b->row : b->column) + k)->area);
                 }
             }
         while (count-- > 0) {

@@ -21,7 +21,7 @@ struct exchange_block {
     uint16_t rows, columns;
     uint32_t anew; /* 0: values are kept; else it is made anew from links[anew - 1] */
     size_t at;     /* of its first value, row by row; made anew: of the next that is kept */
-    double error;  /* the largest that is estimated of its values (m2) */
+    double error;  /* the largest that is estimated of its values, of the smaller area of each */
 };
 
 struct exchange_aim {
@@ -75,7 +75,7 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
 void exchange_areas_close(struct exchange_areas *m);
 
 /* What one tile of a link stands for: values[rows][columns] (exchange_blocks.h). Returns
- * the largest error estimated (m2). */
+ * the largest error estimated, of the smaller area of each pair. */
 double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_block *b,
                           const struct link *link, struct exchange_scratch *scratch,
                           double *values);

@@ -22,7 +22,7 @@ int exchange_scratch_open(struct exchange_scratch *scratch, const struct sight_l
 void exchange_scratch_close(struct exchange_scratch *scratch);
 
 /* out[rows][columns]: A_i F_ij (m2), none above the smaller area. Returns the largest error
- * estimated of any (m2); 0 where nobody estimates: of a clear view. */
+ * estimated of any, as a share of the smaller area; 0 where nobody estimates: of a clear view. */
 double exchange_block_fill(const struct exchange_faces *faces, const struct exchange_pair *pair,
                            const struct link *link, struct exchange_scratch *scratch, double *out);
 

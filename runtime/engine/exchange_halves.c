@@ -25,7 +25,7 @@ struct halving {
     struct horizon *horizon;
     struct sight_scratch *scratch;
     double *out;
-    double most; /* error (m2) */
+    double most; /* error, of the smaller area */
 };
 
 /* Some faces of an element, which is given when it is no group. */
@@ -165,7 +165,7 @@ static void fill_halves(struct halving *h, const struct half *r, const struct ha
         double error;
         *place_of(h, r->range.from, s->range.from) =
             sight_pair(&from, &to, t, among, h->scratch, &error);
-        h->most = fmax(h->most, error);
+        h->most = fmax(h->most, error / fmin(from.area, to.area));
         return;
     }
     if (shaft_open(&shaft, &from, &to, &t->host)) { /* else faces that lie a little off may */

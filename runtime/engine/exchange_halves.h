@@ -7,7 +7,8 @@
 #include "engine/exchange_horizon.h"
 #include "engine/exchange_sight.h"
 
-/* out[rows][columns] (m2). Returns the largest error estimated of any (m2). */
+/* out[rows][columns] (m2). Returns the largest error estimated of any, as a share of
+ * the smaller area. */
 double halves_block(const struct exchange_faces *faces, const struct exchange_pair *pair,
                     struct horizon *horizon, struct sight_scratch *scratch, double *out);
 

@@ -330,7 +330,7 @@ double shadow_block(const struct exchange_pair *pair, const struct blockers *lis
                 *value = fmin(
                     sight_pair(e, exchange_tree_face(t, onto.from + j), t, &among, looking, &error),
                     all);
-            most = fmax(most, error);
+            most = fmax(most, error / least);
         }
     }
     return most;

@@ -15,7 +15,8 @@ int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most);
 void shadow_scratch_close(struct shadow_scratch *scratch);
 
 /* values[rows][columns] are what pairs would exchange if nothing stood between; on return, what
- * they do past the faces of the list. Returns the largest error estimated (m2). */
+ * they do past the faces of the list. Returns the largest error estimated, as a share of the
+ * smaller area. */
 double shadow_block(const struct exchange_pair *pair, const struct blockers *list,
                     struct shadow_scratch *scratch, struct sight_scratch *looking, double *values);
 
