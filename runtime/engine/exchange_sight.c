@@ -374,7 +374,7 @@ static void divide(struct looking *l, int at)
         return;
     }
     node->error = fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * node->rest);
-    if (!l->scratch->limits.many)
+    if (!l->scratch->limits.many && node->piece.area * SIGHT_MISSED > l->from->area)
         node->error += missed(l, at);
 }
 

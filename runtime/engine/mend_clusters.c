@@ -215,21 +215,20 @@ static void share_out(const struct clusters *x, uint32_t e, uint32_t k, const st
     }
 }
 
-static void mend_scene(const struct mend_sums *m, uint32_t k, double *irradiance)
-{
-    const double linked = m->linked[mend_at(m, 0, k)], off = m->received[mend_at(m, 0, k)] - linked,
-                 noise = noise_of(m, 0, 0, k, 0, m->received[mend_at(m, 0, k)]),
-                 least = 1 + MEND_EVIDENCE * sqrt(2);
-    const double belief = off * off > least * noise ? 1 - noise / (off * off) : 0;
-    irradiance[k] = (linked + belief * off) / m->op->hierarchy->elements[0].area;
-}
-
-/* What is left of a difference that is as noisy as that once it is believed as far as it is no
- * accident; and where nothing is believed, the most that it may be. */
+/* What is left of a difference as noisy as that once it is believed as far as it is no accident;
+ * where nothing is believed, the most that it may be. */
 static double left_of(double off, double noise)
 {
     const double least = 1 + MEND_EVIDENCE * sqrt(2);
     return off * off > least * noise ? noise / fabs(off) : sqrt(least * noise);
+}
+
+static void mend_scene(const struct mend_sums *m, uint32_t k, double *irradiance)
+{
+    const double linked = m->linked[mend_at(m, 0, k)], off = m->received[mend_at(m, 0, k)] - linked,
+                 noise = noise_of(m, 0, 0, k, 0, m->received[mend_at(m, 0, k)]),
+                 more = fmax(0, fabs(off) - left_of(off, noise));
+    irradiance[k] = (linked + copysign(more, off)) / m->op->hierarchy->elements[0].area;
 }
 
 /* Is it a face that this rank adds to sums? */

@@ -156,9 +156,7 @@ static int gather(struct finder *f, uint32_t node)
         return result;
     uint32_t i = f->tree->order[n->from];
     const struct face *face = &f->scene->faces[i];
-    /* Parts of one polygon lie side by side, thousands of them where it has as many corners. */
-    if (face->input == f->sheet.face.input || face->back
-        || !ranks_before(f->scene, i, f->sheet.index))
+    if (i == f->sheet.index || face->back || !ranks_before(f->scene, i, f->sheet.index))
         return 0;
     if (!may_lie_in(f, face, box))
         return 0;
