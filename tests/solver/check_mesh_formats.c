@@ -1,25 +1,20 @@
 /* check_mesh_formats.c - one room in every mesh format: the same polygons, corner by corner, and
- * the same matrix of view factors as its OBJ file, byte by byte; and what is wrong with a file is
- * said with its line.
+ * the same matrix of view factors as its OBJ file, byte by byte.
  *
  * The writers here know the formats and nothing of the readers. Node numbers have gaps and come in
  * an order of their own wherever the format lets them.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <fcntl.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <zlib.h>
 
-#include "folder.h"
-#include "scene/scene_file.h"
+#include "solver/mesh_text.h"
 #include "suite.h"
 
-enum { POINTS = 16, FACES = 12, TEXT = 1 << 16 };
+enum { POINTS = 16, FACES = 12 };
 
 /* 4 x 5 x 3 m, one wall two triangles, and in it a block that stands free. */
 static const double point[POINTS][3] = {{0, 0, 0},     {4, 0, 0},       {4, 5, 0},     {0, 5, 0},
@@ -39,20 +34,6 @@ static int corners(int i)
 static const char *group(int i) /* walls, then the block, which has no fourth side */
 {
     return i < 7 ? "walls" : "block";
-}
-
-static struct {
-    char at[TEXT];
-    size_t size;
-} text;
-
-__attribute__((__format__(__printf__, 1, 2))) static void put(const char *format, ...)
-{
-    va_list a;
-    va_start(a, format);
-    text.size += (size_t)vsnprintf(text.at + text.size, TEXT - text.size, format, a);
-    va_end(a);
-    ck_assert_uint_lt(text.size, TEXT);
 }
 
 static void put_corners(int i, const char *format, int first, int step)
@@ -497,14 +478,6 @@ static void write_vtu_zlib(void)
 
 /* ---- */
 
-static void write_text(const char *name)
-{
-    FILE *f = fopen(in_folder(name), "wb");
-    ck_assert_ptr_nonnull(f);
-    ck_assert_uint_eq(fwrite(text.at, 1, text.size, f), text.size);
-    ck_assert_int_eq(fclose(f), 0);
-}
-
 static void make(const char *name, void (*write)(void))
 {
     text.size = 0;
@@ -533,8 +506,6 @@ static const struct {
     {"room.vtp", write_vtp, "DefaultMaterial", "DefaultMaterial"},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
-
-static const struct scene_options quietly = {.quiet = 1};
 
 START_TEST(test_polygons)
 {
@@ -583,141 +554,6 @@ START_TEST(test_factors)
         make(formats[i].name, formats[i].write);
         ck_assert_msg(matrix(formats[i].name, got, TEXT) == size && memcmp(got, wanted, size) == 0,
                       "%s", formats[i].name);
-    }
-}
-END_TEST
-
-/* What reading says on stderr, of a file that must be refused. */
-static const char *refusal(const char *path)
-{
-    static char said[1000];
-    struct scene_file f;
-    fflush(stderr);
-    const int was = dup(2), to = open(in_folder("said"), O_RDWR | O_CREAT | O_TRUNC, 0600);
-    dup2(to, 2);
-    const int result = scene_file_read(&f, path, &quietly);
-    fflush(stderr);
-    dup2(was, 2);
-    close(was);
-    lseek(to, 0, SEEK_SET);
-    const ssize_t size = read(to, said, sizeof said - 1);
-    close(to);
-    said[size > 0 ? size : 0] = '\0';
-    ck_assert_msg(result == -1, "%s is read", path);
-    return said;
-}
-
-#define POLYDATA "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
-#define GRID "<VTKFile type='UnstructuredGrid'><Piece>\n"
-#define ZLIB \
-    "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'>\n<Piece><Points><DataArray " \
-    "format='binary'>"
-
-START_TEST(test_refusals)
-{
-    static const struct {
-        const char *name, *content, *said;
-    } cases[] = {
-        {"a.vs3", "F 3\nV 1 0 0 0\nS 1 1 2 1 0 0 0 .5 a\n", ":3: error: surface 1 names vertex 2"},
-        {"a.vs3", "F 3\nV 1 0 0 nan\n", ":2: error: 'nan' where z belongs"},
-        {"a.vs3", "F 2\n", ":1: error: a geometry of another kind"},
-        {"a.vs3", "F 3\nV 1 0 0\n", ": error: ends before z"},
-        {"a.vs3", "F 3\nV 1 0 0 0\nV 1 0 0 1\n", ":3: error: node 1 is defined twice"},
-        {"a.vs3", "F 3\nS 2 1 1 1 0 0 0 1 a\n", ":2: error: surface 2 where 1 belongs"},
-        {"a.vs3", "F 3\nV 1 0 0 0\nM 1 1 1 1 0 1 0 .5 a\n",
-         ":3: error: surface 1 is a null or masking surface"},
-        {"a.vs3", "F 3\nQ\n", ":2: error: 'Q' is no entry"},
-        {"a.vs3", "F 3\n", ": error: there is no face"},
-        {"a.msh", "$MeshFormat\n4.1 1 8\n", ":2: error: ends before the number 1"},
-        {"a.msh", "$MeshFormat\n4.1 1 8\nabcd", ":2: error: no 1 behind this line"},
-        {"a.msh", "$MeshFormat\n4.1 1 4\n", ":2: error: a binary mesh with numbers of 4 bytes"},
-        {"a.msh", "$MeshFormat\n4 0 8\n", ":2: error: version 4 is not read; convert it"},
-        {"a.msh", "$Nodes\n1\n", ":1: error: no $MeshFormat"},
-        {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4000000000\n1 0 0 0\n",
-         ":6: error: ends before a node"},
-        {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n2 0 0 0\n",
-         ":7: error: '2' where $EndNodes belongs"},
-        {"a.msh",
-         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n"
-         "1 2 0 1 5 1\n$EndElements\n",
-         ":10: error: this face names node 5"},
-        {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n", "no $Elements"},
-        {"a.msh",
-         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
-         "1 4 0 1 2 3 4\n$EndElements\n",
-         ":9: error: there are volumes in it and no face"},
-        {"a.msh",
-         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
-         "1 4294967297 0 1 2 3\n$EndElements\n",
-         ":9: error: an element of type 4294967297: types are 1 to 140"},
-        {"a.msh",
-         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
-         "1 -7 0 1 2 3\n$EndElements\n",
-         ":9: error: an element of type -7"},
-        {"a.bdf", "GRID,1,,0,0,0\nCTRIA3,1,1,1,2,3\n", ":2: error: this face names node 2"},
-        {"a.bdf", "GRID,1,4,0,0,0\n", ":1: error: GRID 1 is in coordinate system 4, which is not"},
-        {"a.bdf",
-         "CORD2R,4,5,0,0,0,0,0,1\n,1,0,0\nCORD2R,5,4,0,0,0,0,0,1\n,1,0,0\nGRID,1,4,0,0,0\n",
-         ":5: error: GRID 1 is in coordinate system 4, which is not there, or needs itself"},
-        {"a.bdf", "CORD2C,4,,0,0,0,0,0,1\n,0,0,2\n",
-         ":1: error: the three points of coordinate system 4 are in a line"},
-        {"a.bdf", "CORD1S,4,1,2,3\nCORD1R,4,1,2,3\n", ":2: error: coordinate system 4 is def"},
-        {"a.bdf", "CORD1S,4,1,2\n", ":1: error: 0 where a point of CORD1S belongs"},
-        {"a.bdf", "CORD2R,4,-1\n", ":1: error: -1 where a system of CORD2R belongs"},
-        {"a.bdf", "GRID,1,.5,0,0,0\n", ":1: error: GRID 1 is in coordinate system 0.5; write"},
-        {"a.bdf", "GRID           1             1.x      0.      0.\n",
-         ":1: error: '1.x' where x of GRID belongs"},
-        {"a.bdf", "$\nCQUAD4,1,1,1,2,3\n", ":2: error: 0 where a corner of CQUAD4 belongs"},
-        {"a.bdf", "INCLUDE 'b.bdf'\n", ":1: error: INCLUDE is not followed"},
-        {"a.vtk", "x\n", ":1: error: no legacy VTK file"},
-        {"a.vtk", "# vtk DataFile Version 3.0\n\nBINARY\n", ":3: error: a binary VTK file; write"},
-        {"a.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\n",
-         ":4: error: dataset STRUCTURED_POINTS has no faces"},
-        {"a.vtk", POLYDATA "POINTS 4000000000 float\n0 0 0\n", ":6: error: ends before a coord"},
-        {"a.vtk", POLYDATA "POINTS 1 float\n0 0 nan\n", ":6: error: 'nan' where a coordinate"},
-        {"a.vtk", POLYDATA "POINTS 1 float\n0 0 0\nPOLYGONS 1 4\n3 0 0 1\n",
-         ":8: error: a cell names point 1, but there are 1"},
-        {"a.vtk", POLYDATA "POLYGONS 1 4\n4 0 0 0 0\n", ":6: error: cell 0 goes beyond the 4"},
-        {"a.vtk", POLYDATA "POLYGONS 1 3\n2 0 0\n", ":6: error: a cell of type 7 has 2 points"},
-        {"a.vtk", POLYDATA "QUADS 1 5\n", ":5: error: 'QUADS' is no part"},
-        {"a.vtk",
-         "# vtk DataFile Version 5.1\n\nASCII\nDATASET POLYDATA\nPOLYGONS 3 4\nOFFSETS t\n0 3 2\n",
-         ":7: error: offset 2 is less"},
-        {"a.vtk",
-         "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n0 0 0\n"
-         "CELLS 1 5\n4 0 0 0 0\nCELL_TYPES 1\n10\n",
-         ":8: error: there are volumes in it and no face"},
-        {"a.vtu", "<x/>\n", ":1: error: <x> before <VTKFile>"},
-        {"a.vtu", "\n<VTKFile type='ImageData'/>\n", ":2: error: VTK data of type 'ImageData'"},
-        {"a.vtu", "<VTKFile type='PolyData' compressor='vtkLZ4DataCompressor'/>",
-         ":1: error: the file is compressed by vtkLZ4DataCompressor"},
-        /* 2^32 - 1 blocks; one of 2^32 - 1 bytes made of 4; of 4 made of 4 that are none; one cut
-         */
-        {"a.vtu", ZLIB "/////wAAAAAAAAAA</DataArray>", ":2: error: the blocks of a compressed"},
-        {"a.vtu", ZLIB "AQAAAP////8AAAAABAAAAAAAAAA=</DataArray>", ":2: error: the blocks of"},
-        {"a.vtu", ZLIB "AQAAAAQAAAAAAAAABAAAAAAAAAA=</DataArray>", ":2: error: the blocks of"},
-        {"a.vtu", ZLIB "AQAAAAQAAAAAAAAABAAAAAA=</DataArray>", ":2: error: the blocks of"},
-        {"a.vtu", ZLIB "AQAA</DataArray>", ":2: error: an array is no base64"},
-        {"a.vtu", GRID "<Points>\n", ":3: error: not well-formed XML"},
-        {"a.vtu", GRID "<Points><DataArray format='appended'/>", ":2: error: an array of format"},
-        {"a.vtu", GRID "<Points><DataArray>1 2\n 3x</DataArray>", ":2: error: '3x' is not a num"},
-        {"a.vtu", GRID "<Points><DataArray>1 2</DataArray></Points></Piece>",
-         ":2: error: points have 2 numbers"},
-        {"a.vtu", GRID "<Points><DataArray type='Float32' format='binary'>AAAAA</DataArray>",
-         ":2: error: an array is no base64"},
-        {"a.vtu", GRID "<Points><DataArray type='Float32' format='binary'>////fwAA</DataArray>",
-         ":2: error: an array counts 2147483647 bytes of type Float32 and has 2"},
-        {"a.vtu", GRID "<Cells><DataArray Name='offsets'>3</DataArray></Cells></Piece>",
-         "0 types of 1 cells"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        text.size = 0;
-        put("%s", cases[i].content);
-        write_text(cases[i].name);
-        const char *said = refusal(in_folder(cases[i].name));
-        ck_assert_msg(strstr(said, cases[i].said), "%zu: %s", i, said);
-        ck_assert_msg(strchr(said, '\n') == said + strlen(said) - 1, "more than one line: %s",
-                      said);
     }
 }
 END_TEST
@@ -844,7 +680,6 @@ int main(void)
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_polygons, 0, FORMATS);
     tcase_add_test(t, test_factors);
-    tcase_add_test(t, test_refusals);
     tcase_add_test(t, test_systems_of_nastran);
     tcase_add_loop_test(t, test_cut_bytes, 0, 3);
     tcase_add_test(t, test_view3d_surfaces);

@@ -1,0 +1,62 @@
+/* mesh_text.h - meshes that a test writes, and what reading says of those that it must refuse.
+ * SPDX-License-Identifier: MIT */
+#ifndef MESH_TEXT_H
+#define MESH_TEXT_H
+
+#include <check.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "folder.h"
+#include "scene/scene_file.h"
+
+enum { TEXT = 1 << 16 };
+static struct {
+    char at[TEXT];
+    size_t size;
+} text;
+
+__attribute__((__format__(__printf__, 1, 2))) static inline void put(const char *format, ...)
+{
+    va_list a;
+    va_start(a, format);
+    text.size += (size_t)vsnprintf(text.at + text.size, TEXT - text.size, format, a);
+    va_end(a);
+    ck_assert_uint_lt(text.size, TEXT);
+}
+
+static inline void write_text(const char *name)
+{
+    FILE *f = fopen(in_folder(name), "wb");
+    ck_assert_ptr_nonnull(f);
+    ck_assert_uint_eq(fwrite(text.at, 1, text.size, f), text.size);
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+static const struct scene_options quietly = {.quiet = 1};
+
+/* What reading says on stderr, of a file that must be refused. */
+static inline const char *refusal(const char *path)
+{
+    static char said[1000];
+    struct scene_file f;
+    fflush(stderr);
+    const int was = dup(2), to = open(in_folder("said"), O_RDWR | O_CREAT | O_TRUNC, 0600);
+    dup2(to, 2);
+    const int result = scene_file_read(&f, path, &quietly);
+    fflush(stderr);
+    dup2(was, 2);
+    close(was);
+    lseek(to, 0, SEEK_SET);
+    const ssize_t size = read(to, said, sizeof said - 1);
+    close(to);
+    said[size > 0 ? size : 0] = '\0';
+    ck_assert_msg(result == -1, "%s is read", path);
+    return said;
+}
+
+#define POLYDATA "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
+
+#endif
