@@ -556,16 +556,16 @@
 #define REFINER_SIGHT_FLOOR 1e-4
 /* polygons. In larger scenes it is a share of so much over the root of the number of faces: errors
  * of a row's entries add up like chance, and are a few times below what is estimated; chosen */
-#define REFINER_SIGHT_FEW_FACES 24
-/* parts of a face. In pieces below that shades are no longer looked for that no point sees: a face
- * that only touches what lies between would have them cut along a line, as far as there are any.
- * Chosen: what is left is a 200th of a side wide */
-#define REFINER_SIGHT_MISSED 1024
+#define REFINER_SIGHT_FEW_POLYGONS 24
+#define REFINER_SIGHT_FLOOR_MANY 4.0
 /* of the tolerance. In small scenes estimates have to be that small: each entry is looked at for
  * itself there, and of 1,600 past one to three plates a few are off by up to four times what is
  * estimated */
 #define REFINER_SIGHT_FEW_SURE 0.25
-#define REFINER_SIGHT_FLOOR_MANY 4.0
+/* parts of a face. In pieces below that shades are no longer looked for that no point sees: a face
+ * that only touches what lies between would have them cut along a line, as far as there are any.
+ * Chosen: what is left is a 200th of a side wide */
+#define REFINER_SIGHT_MISSED 1024
 /* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
 #define REFINER_SIGHT_PIECES 8192
 #define REFINER_SIGHT_PIECES_MANY 512

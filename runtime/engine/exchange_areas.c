@@ -200,6 +200,26 @@ double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const doub
     return sum;
 }
 
+/* Adds what values of a block may be wrong by, as the row of place p has them, to sums by polygon
+ * (m2); index: as in exchange_areas.index. met[count]: polygons that have a sum. Returns their
+ * number. */
+static uint32_t add_errors(const struct exchange_areas *m, uint32_t p, uint32_t index, double *sum,
+                           uint32_t *met, uint32_t count)
+{
+    const struct exchange_block *b = &m->blocks[index / 2];
+    const int column = index & 1;
+    const uint32_t from = column ? b->row : b->column,
+                   past = from + (column ? b->rows : b->columns);
+    const double own = exchange_tree_face(m->tree, p)->area;
+    for (uint32_t place = from; place < past && b->error > 0; place++) {
+        const uint32_t input = m->input[place];
+        if (!(sum[input] > 0))
+            met[count++] = input;
+        sum[input] += b->error * fmin(own, exchange_tree_face(m->tree, place)->area);
+    }
+    return count;
+}
+
 double exchange_areas_error(const struct exchange_areas *m)
 {
     double *sum = calloc(m->inputs + 1, sizeof *sum), most = 0;
@@ -210,20 +230,8 @@ double exchange_areas_error(const struct exchange_areas *m)
          i < to && m->blocks && sum && met; i++) {
         count = 0;
         for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p])
-            for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++) {
-                const struct exchange_block *b = &m->blocks[m->index[at] / 2];
-                int column = m->index[at] & 1;
-                const uint32_t *input = m->input + (column ? b->row : b->column);
-                for (uint32_t k = 0; b->error > 0 && k < (column ? b->rows : b->columns); k++) {
-                    if (!(sum[input[k]] > 0))
-                        met[count++] = input[k];
-                    sum[input[k]] +=
-                        b->error
-                        * fmin(
-                            exchange_tree_face(m->tree, p)->area,
-                            exchange_tree_face(m->tree, (column ? b->row : b->column) + k)->area);
-                }
-            }
+            for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++)
+                count = add_errors(m, p, m->index[at], sum, met, count);
         while (count-- > 0) {
             most = fmax(most, sum[met[count]] / m->area[i]);
             sum[met[count]] = 0;

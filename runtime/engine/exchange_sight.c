@@ -12,7 +12,8 @@
  * enough or the pieces run out: errors of pieces have either sign. Pieces with more in their shaft
  * than points can look past have 1024 rays each, and are cut too. Invariant: pieces cover the part
  * once; what is proved is not cut; none exchanges more than with nothing between. Fails: shades
- * that meet no point of a piece, nor of its rim. [globally adaptive cubature: van Dooren & de
+ * that meet no point of a piece, nor of its rim; in scenes of few polygons the most that these may
+ * be counts as error (sight_missed.h). [globally adaptive cubature: van Dooren & de
  * Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -59,7 +60,7 @@ struct looking {
 
 struct sight_limits sight_limits_for(double tolerance, uint32_t polygons, uint32_t faces)
 {
-    int few = polygons <= SIGHT_FEW_FACES;
+    int few = polygons <= SIGHT_FEW_POLYGONS;
     return (struct sight_limits){few ? SIGHT_FEW_SURE * tolerance : tolerance,
                                  few ? SIGHT_FLOOR : SIGHT_FLOOR_MANY / sqrt(faces),
                                  few ? SIGHT_PIECES : SIGHT_PIECES_MANY,
@@ -213,15 +214,23 @@ static double share(struct mean m)
     return m.seen > 0 ? fmin(m.seen / m.whole, 1) : 0;
 }
 
+/* What so many rays leave of a clear view (m2); *error: the standard error of that. */
+static double seen_by_rays(const struct element *r, const struct element *s,
+                           const struct exchange_tree *t, int rays, double clear, double *error)
+{
+    const double v = visibility_rays(r, s, &t->host, rays, 0);
+    *error = clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
+    return clear * v;
+}
+
 /* A piece with more between than points can look past. */
 static void by_rays(struct looking *l, struct sight_node *node)
 {
-    const double v = visibility_rays(&node->piece, l->to, &l->tree->host, RAYS, 0);
     node->by_rays = 1;
     l->cast++;
     node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
-    node->points = node->value = node->clear * v;
-    node->error = node->clear * sqrt((v * (1 - v) + 1.0 / RAYS) / RAYS);
+    node->points = node->value =
+        seen_by_rays(&node->piece, l->to, l->tree, RAYS, node->clear, &node->error);
 }
 
 /* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
@@ -535,14 +544,6 @@ static int is_faint(const struct sight_limits *limits, double clear, double leas
     return limits->many && clear <= FAINT * limits->tolerance * limits->floor * least;
 }
 
-static double by_few_rays(const struct element *r, const struct element *s,
-                          const struct exchange_tree *t, double clear, double *error)
-{
-    const double v = visibility_rays(r, s, &t->host, FAINT_RAYS, 0);
-    *error = clear * sqrt((v * (1 - v) + 1.0 / FAINT_RAYS) / FAINT_RAYS);
-    return clear * v;
-}
-
 double sight_pair(const struct element *r, const struct element *s, const struct exchange_tree *t,
                   const struct sight_list *among, struct sight_scratch *scratch, double *error)
 {
@@ -561,7 +562,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     if (count == 0)
         return clear;
     if (is_faint(&scratch->limits, clear, least))
-        return by_few_rays(r, s, t, clear, error);
+        return seen_by_rays(r, s, t, FAINT_RAYS, clear, error);
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
     if (!many && !among)
         sight_list_sort(own, count);

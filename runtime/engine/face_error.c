@@ -65,9 +65,10 @@ struct counted {
     double *mean;          /* [values]: R^ */
     double *deviation;     /* [values]: s (W) */
     double scale[CLASSES]; /* s of a class by its moduli over that by its squares */
-    double *weight;        /* [values]: room to work in */
-    double reflected;      /* sum of R^ (W) */
-    unsigned char *class;  /* [values] */
+    double *count;        /* [values]: particles by the solution, as far as what came allows that */
+    double *weight;       /* [values]: room to work in */
+    double reflected;     /* sum of R^ (W) */
+    unsigned char *class; /* [values] */
     struct bin bin[CLASSES][BINS];
     double sure, sure_square;     /* of those whose x is beyond all bins: sums of |e^| and s^2 */
     double shape_low, shape_high; /* what shapes may take off and add (W) */
@@ -187,6 +188,7 @@ static void counted_close(struct counted *c)
     free(c->replicate);
     free(c->mean);
     free(c->deviation);
+    free(c->count);
     free(c->weight);
     free(c->class);
     free(c);
@@ -203,8 +205,7 @@ static double variance_seen(const struct counted *c, size_t i)
     return sum / (REPLICATES * (REPLICATES - 1.0));
 }
 
-/* s and the class of every value; how many particles it has by the solution, as far as what is
- * counted allows that, until weights are asked for. */
+/* s, the class and the count of every value. */
 static void find_deviations(struct counted *c, const struct problem *p, const struct hierarchy *h,
                             const struct tally *tally)
 {
@@ -227,7 +228,7 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
             double drawn = fmin(c->mean[i] + reach, fmax(c->mean[i] - reach, c->solved[i]));
             by_chance =
                 rho[i] * rho[i] * tally_chance(tally, 0.5 * (c->mean[i] + drawn) / rho[i], band);
-            c->weight[i] = drawn / (rho[i] * one);
+            c->count[i] = drawn / (rho[i] * one);
         }
         int class = particles > 1 ? (int)(0.5 * log2(particles)) : 0;
         c->class[i] = (unsigned char)(class < CLASSES ? class : CLASSES - 1);
@@ -310,7 +311,7 @@ static void find_scales(struct counted *c)
         all_splits(off);
         for (unsigned split = 1; split < REPLICATES; split++)
             sum += fabs(off[split]) / (REPLICATES - 1);
-        apart[c->class[i]] += sum * few_moduli(c->weight[i]);
+        apart[c->class[i]] += sum * few_moduli(c->count[i]);
         normal[c->class[i]] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
         count[c->class[i]]++;
     }
@@ -466,10 +467,9 @@ static struct RadMeasure measure_l1(struct counted *c)
     for (size_t i = 0; i < c->values; i++) { /* d |e^| / d R^, and that of the reflected light */
         double off = c->solved[i] - c->mean[i];
         double s = noise_by_moduli(c, i), x = s > 0 ? off / s : 0;
-        if (s > 0 && bin_of(c, i) < BINS) {
-            double m = c->bin[c->class[i]][bin_of(c, i)].error;
-            x = x < 0 ? -m : m;
-        }
+        const int at = s > 0 ? bin_of(c, i) : BINS;
+        if (at < BINS)
+            x = copysign(c->bin[c->class[i]][at].error, x);
         double slope = erf(x / sqrt(2));
         c->weight[i] = -slope - value / all;
         independent += slope * slope * s * s;
@@ -563,9 +563,11 @@ static struct counted *counted_open(const struct problem *p, const struct hierar
     c->replicate = calloc(n * REPLICATES, sizeof *c->replicate);
     c->mean = calloc(n, sizeof *c->mean);
     c->deviation = calloc(n, sizeof *c->deviation);
+    c->count = calloc(n, sizeof *c->count);
     c->weight = calloc(n, sizeof *c->weight);
     c->class = calloc(n, sizeof *c->class);
-    failed = !c->solved || !c->replicate || !c->mean || !c->deviation || !c->weight || !c->class;
+    failed = !c->solved || !c->replicate || !c->mean || !c->deviation || !c->count || !c->weight
+             || !c->class;
     if (ranks_any(ranks, failed) || sum_polygons(c, p, h, irradiance, tally) < 0) {
         counted_close(c);
         return NULL;

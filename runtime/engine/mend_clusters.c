@@ -31,6 +31,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/mend_clusters.h"
+#include "engine/reflected_light.h"
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
@@ -223,12 +224,23 @@ static double left_of(double off, double noise)
     return off * off > least * noise ? noise / fabs(off) : sqrt(least * noise);
 }
 
+/* What of a difference is believed. */
+static double believed(double off, double noise)
+{
+    return copysign(fmax(0, fabs(off) - left_of(off, noise)), off);
+}
+
+/* The variance of what was counted on an element (W2). */
+static double noise_of_count(const struct mend_sums *m, uint32_t e, uint32_t k)
+{
+    return noise_of(m, e, e, k, 0, m->received[mend_at(m, e, k)]);
+}
+
 static void mend_scene(const struct mend_sums *m, uint32_t k, double *irradiance)
 {
-    const double linked = m->linked[mend_at(m, 0, k)], off = m->received[mend_at(m, 0, k)] - linked,
-                 noise = noise_of(m, 0, 0, k, 0, m->received[mend_at(m, 0, k)]),
-                 more = fmax(0, fabs(off) - left_of(off, noise));
-    irradiance[k] = (linked + copysign(more, off)) / m->op->hierarchy->elements[0].area;
+    const double linked = m->linked[mend_at(m, 0, k)], off = m->received[mend_at(m, 0, k)] - linked;
+    irradiance[k] =
+        (linked + believed(off, noise_of_count(m, 0, k))) / m->op->hierarchy->elements[0].area;
 }
 
 /* Is it a face that this rank adds to sums? */
@@ -243,48 +255,42 @@ static double reflectance_of(const struct mend_sums *m, uint32_t e, uint32_t k)
     return m->op->problem->reflectance[(size_t)at->face * m->bands + k];
 }
 
-/* The variance of what was counted on a face (W2). */
-static double noise_of_face(const struct mend_sums *m, uint32_t e, uint32_t k)
-{
-    return noise_of(m, e, e, k, 0, m->received[mend_at(m, e, k)]);
-}
-
-/* By how much all that faces reflect, mended, is to be less (W). *covers: the sum over faces of the
- * variance of what they reflect as counted (W2). */
-static double sum_is_above(const struct mend_sums *m, const double *irradiance, double *covers)
+/* By how much all that faces reflect, mended, is above what is believed of it (W). */
+static double sum_is_above(const struct mend_sums *m, const double *irradiance)
 {
     const struct hierarchy *h = m->op->hierarchy;
-    const size_t values = (size_t)m->places.built * m->bands;
-    enum { MENDED = REPLICATES, LINKED, COVERS, SUMS };
-    double sum[SUMS] = {0}, counted = 0, noise = 0;
+    enum { MENDED, LINKED, SUMS };
+    double sum[SUMS] = {0}, noise;
     for (uint32_t e = 0; e < h->built; e++)
         for (uint32_t k = 0; k < m->bands && is_own_face(m, e); k++) {
             const double rho = reflectance_of(m, e, k);
-            for (size_t r = 0; r < REPLICATES; r++)
-                sum[r] += rho * m->replicate[r * values + mend_at(m, e, k)];
             sum[MENDED] += rho * h->elements[e].area * irradiance[(size_t)e * m->bands + k];
             sum[LINKED] += rho * m->linked[mend_at(m, e, k)];
-            sum[COVERS] += rho * rho * noise_of_face(m, e, k);
         }
     mend_add_up(m, sum, SUMS);
-    for (int r = 0; r < REPLICATES; r++)
-        counted += sum[r] / REPLICATES;
-    for (int r = 0; r < REPLICATES; r++)
-        noise += (sum[r] - counted) * (sum[r] - counted) / (REPLICATES * (REPLICATES - 1.0));
-    const double off = sum[MENDED] - counted, left = left_of(sum[LINKED] - counted, noise);
-    *covers = sum[COVERS];
-    return off > left ? off - left : off < -left ? off + left : 0;
+    const double counted = reflected_light(m->op->problem, m->tally, &noise),
+                 off = sum[MENDED] - counted, left = left_of(sum[LINKED] - counted, noise);
+    return copysign(fmax(0, fabs(off) - left), off);
 }
 
 static void settle_sum(const struct mend_sums *m, double *irradiance)
 {
-    double covers;
-    const double above = sum_is_above(m, irradiance, &covers);
-    for (uint32_t e = 0; e < m->op->hierarchy->built && above != 0 && covers > 0; e++)
+    const struct hierarchy *h = m->op->hierarchy;
+    const double above = sum_is_above(m, irradiance);
+    double noise = 0; /* of what is counted, face by face (W2) */
+    if (above == 0)
+        return;
+    for (uint32_t e = 0; e < h->built; e++)
+        for (uint32_t k = 0; k < m->bands && is_own_face(m, e); k++) {
+            const double rho = reflectance_of(m, e, k);
+            noise += rho * rho * noise_of_count(m, e, k);
+        }
+    mend_add_up(m, &noise, 1);
+    for (uint32_t e = 0; e < h->built && noise > 0; e++)
         for (uint32_t k = 0; k < m->bands && is_own_face(m, e); k++) {
             double *light = &irradiance[(size_t)e * m->bands + k];
-            const double less = above * reflectance_of(m, e, k) * noise_of_face(m, e, k) / covers
-                                / m->op->hierarchy->elements[e].area;
+            const double less = above * reflectance_of(m, e, k) * noise_of_count(m, e, k) / noise
+                                / h->elements[e].area;
             *light = fmax(*light - less, 0.5 * *light);
         }
 }

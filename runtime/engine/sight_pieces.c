@@ -229,8 +229,7 @@ static void add_left(const struct shadows *all, const uint16_t *among, int count
         list[n] = among[i];
         n += (b[0] < box[2]) & (b[2] > box[0]) & (b[1] < box[3]) & (b[3] > box[1]);
     }
-    while (first < n
-           && (beside(&all->cast[list[first]], cell) || beside_cell(&all->cast[list[first]], cell)))
+    while (first < n && !sight_shade_meets(&all->cast[list[first]], cell))
         first++;
     if (first == n) {
         sight_eye_add(all->eye, cell);

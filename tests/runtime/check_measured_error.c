@@ -113,9 +113,6 @@ START_TEST(test_coverage)
 }
 END_TEST
 
-/* Of tens of thousands of faces chance leaves nothing open; what is not known of the noise itself
- * does. Errors well below it are covered; the lower end, which takes errors for more evenly spread
- * than a third of the faces, is up to a tenth too high. */
 /* Thousands of faces that next to no particle meets: of a solution that is right, noise is all that
  * is seen. */
 START_TEST(test_few)
@@ -144,6 +141,9 @@ START_TEST(test_few)
 }
 END_TEST
 
+/* Of tens of thousands of faces chance leaves nothing open; what is not known of the noise itself
+ * does. Errors well below it are covered; the lower end, which takes errors for more evenly spread
+ * than a third of the faces, is up to a tenth too high. */
 START_TEST(test_many)
 {
     static const int tiles[] = {20, 60}, particles[] = {16, 64};

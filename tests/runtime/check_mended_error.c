@@ -187,35 +187,40 @@ static double sum_of(const struct solve *s, const double *irradiance)
     return sum;
 }
 
-/* Links that have so many standard errors of what is counted too much on faces that reflect more
- * than others, and as much less on those: all that falls on faces is right. By how much of what
- * links are off from what was counted may their mended sum be? */
+/* Links that have a share too much on faces that reflect more than others, and as much less on
+ * those: all that falls on faces is right. */
+static void tilt(const struct solve *s, const double *truth, double share, double *links)
+{
+    const uint32_t bands = s->problem.bands, faces = s->hierarchy.face_count;
+    const double *rho = s->problem.reflectance;
+    double mean = 0;
+    for (uint32_t f = 0; f < faces; f++)
+        mean += rho[f * bands] / faces;
+    for (uint32_t f = 0; f < faces; f++)
+        for (uint32_t k = 0; k < bands; k++)
+            links[s->hierarchy.face_element[f] * bands + k] =
+                truth[f * bands + k] * (1 + share * (rho[f * bands] - mean));
+}
+
+/* Of links that are tilted until their sum is so many standard errors of what is counted too much:
+ * by how much of what links are off from what was counted may their mended sum be? */
 static void check_sum(double many, uint64_t seed)
 {
     struct chance chance = {hash64(seed)};
     struct scene scene;
     struct solve s;
     struct tally y;
-    double *truth = tiled_open(&scene, &s, 8, &chance), variance, mean = 0, tilt = 0;
-    const uint32_t faces = scene.face_count, bands = scene.bands;
-    const size_t values = (size_t)s.hierarchy.count * bands;
+    double *truth = tiled_open(&scene, &s, 8, &chance), variance;
+    const size_t values = (size_t)s.hierarchy.count * scene.bands;
     double *links = calloc(values, sizeof *links), *after = calloc(values, sizeof *after);
     struct tracer t = tracer_over(&s, 1);
-    traced(&y, &t, seed, 16 * (int)faces);
+    traced(&y, &t, seed, 16 * (int)scene.face_count);
     const double counted = reflected_light(&s.problem, &y, &variance), noise = sqrt(variance);
-    for (uint32_t f = 0; f < faces; f++)
-        mean += s.problem.reflectance[f * bands] / faces;
-    for (int pass = 0; pass < 2; pass++)
-        for (uint32_t f = 0; f < faces; f++)
-            for (uint32_t k = 0; k < bands; k++) {
-                const uint32_t at = s.hierarchy.face_element[f];
-                const double off = s.problem.reflectance[f * bands] - mean,
-                             light = s.problem.reflectance[f * bands + k]
-                                     * s.hierarchy.elements[at].area * truth[f * bands + k];
-                tilt += pass ? 0 : light * off;
-                links[at * bands + k] =
-                    truth[f * bands + k] * (1 + (pass && tilt > 0 ? many * noise / tilt * off : 0));
-            }
+    tilt(&s, truth, 0, links);
+    const double right = sum_of(&s, links);
+    tilt(&s, truth, 1, links);
+    const double whole = sum_of(&s, links) - right;
+    tilt(&s, truth, whole > 1e-9 * right ? many * noise / whole : 0, links);
     ck_assert_int_eq(mend_faces(&s.operator, & y, links, after, NULL), 0);
     const double off = fabs(sum_of(&s, after) - counted),
                  linked = fabs(sum_of(&s, links) - counted),
