@@ -65,39 +65,56 @@ static int mend_and_measure(struct work *w, uint64_t rays)
     return 0;
 }
 
-/* What ends the work before the error is reached; NULL: nothing. A step that would take too long,
- * by the time that rays have taken so far, is not begun. */
+/* How many rays may be cast yet, by the time that they have taken so far; *why: what ends them. */
+static double rays_left(const struct work *w, const char **why)
+{
+    const double spent = seconds() - w->start, cast = (double)w->a->rays,
+                 by_guard = ACCURACY_RAYS - cast,
+                 by_time = w->o->limit_seconds > 0
+                               ? (w->o->limit_seconds / spent - 1) * fmax(1, cast)
+                               : INFINITY;
+    *why = by_time < by_guard ? "time (--limit-seconds)" : "the guard on rays";
+    return fmin(by_time, by_guard);
+}
+
+/* What ends the work before the error is reached; NULL: nothing. A step that would take too long is
+ * not begun. */
 static const char *limit(const struct work *w, double next_rays)
 {
-    double spent = seconds() - w->start;
-    if (w->o->limit_seconds > 0
-        && spent * (1 + next_rays / fmax(1, (double)w->a->rays)) > w->o->limit_seconds)
-        return "time (--limit-seconds)";
-    return (double)w->a->rays + next_rays > ACCURACY_RAYS ? "the guard on rays" : NULL;
+    const char *why;
+    return rays_left(w, &why) < next_rays ? why : NULL;
 }
+
+/* At the least and at the most, how often as many rays a step takes as the last one. */
+static const double LEAST_MORE = 1.5, MOST_MORE = 16;
+
+/* Of the rays that are left a step may count on so many: seconds of some rays are longer. Chosen */
+static const double SURE_LEFT = 0.8;
 
 /* How often as many rays a reach asks for. */
 static double more_rays(double reached, double wanted)
 {
     double ratio = reached / (0.9 * wanted);
-    return fmin(fmax(ratio * ratio, 1.5), 16);
+    return fmin(fmax(ratio * ratio, LEAST_MORE), MOST_MORE);
 }
 
-/* Particles until the error is reached or something ends it. */
+/* Particles until the error is reached or something ends it. The last step is as large as what is
+ * left: it mends, though it will not reach. */
 static int by_particles(struct work *w, double rays)
 {
     double wanted = w->o->accuracy;
     for (;;) {
+        const char *why;
+        const uint64_t before = w->a->rays;
         if (mend_and_measure(w, (uint64_t)rays) < 0)
             return -1;
         double reached = reach(w->o, w->m);
         if (reached <= wanted)
             return w->a->reached = 1, 0;
-        double more = more_rays(reached, wanted);
-        w->a->why = limit(w, 2 * more * rays);
-        if (w->a->why)
-            return 0;
-        rays *= more;
+        const double most = SURE_LEFT * rays_left(w, &why) / (double)(w->a->rays - before);
+        if (most < LEAST_MORE)
+            return w->a->why = why, 0;
+        rays *= fmin(more_rays(reached, wanted), most);
     }
 }
 
