@@ -22,11 +22,12 @@
 #include "engine/face_rule.h"
 #include "engine/sight_missed.h"
 #include "engine/sight_outlines.h"
+#include "engine/sight_rays.h"
 #include "engine/sight_rims.h"
 #include "kernel/constants.h"
+#include "kernel/hash.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/shaft.h"
-#include "terms/visibility.h"
 #include "visibility/candidates.h"
 
 /* RAYS: of a piece with too much between for points. They take as long as finding what that is, and
@@ -163,8 +164,8 @@ static uint32_t *list_of(const struct looking *l, int at)
 static int place_between(struct looking *l)
 {
     struct sight_between *b = l->scratch->between;
-    l->by_bodies =
-        !b->bent
+    l->by_bodies = /* a point that is not told cuts out all faces */
+        !b->bent && b->faces <= SIGHT_CUT
         && sight_bodies_place(l->scratch->bodies, l->tree, b->list, b->faces, &l->sight.raised);
     return l->by_bodies ? 0 : sight_between_place(b, l->tree, &l->sight);
 }
@@ -214,23 +215,15 @@ static double share(struct mean m)
     return m.seen > 0 ? fmin(m.seen / m.whole, 1) : 0;
 }
 
-/* What so many rays leave of a clear view (m2); *error: the standard error of that. */
-static double seen_by_rays(const struct element *r, const struct element *s,
-                           const struct exchange_tree *t, int rays, double clear, double *error)
-{
-    const double v = visibility_rays(r, s, &t->host, rays, 0);
-    *error = clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
-    return clear * v;
-}
-
 /* A piece with more between than points can look past. */
 static void by_rays(struct looking *l, struct sight_node *node)
 {
     node->by_rays = 1;
     l->cast++;
     node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
-    node->points = node->value =
-        seen_by_rays(&node->piece, l->to, l->tree, RAYS, node->clear, &node->error);
+    const double share = sight_rays(&node->piece, l->to, &l->tree->host, RAYS, &node->error);
+    node->points = node->value = node->clear * share;
+    node->error *= node->clear;
 }
 
 /* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
@@ -384,7 +377,7 @@ static void divide(struct looking *l, int at)
     }
     node->error = fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * node->rest);
     if (!l->scratch->limits.many && node->piece.area * SIGHT_MISSED > l->from->area)
-        node->error += missed(l, at);
+        node->error += fmin(missed(l, at), node->value);
 }
 
 /* Hold a piece against its rim and its quarters; in scenes of many faces, whose entries are many,
@@ -561,8 +554,11 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     const double clear = fmin(r->area * polygon_factor(r, s, 1), least);
     if (count == 0)
         return clear;
-    if (is_faint(&scratch->limits, clear, least))
-        return seen_by_rays(r, s, t, FAINT_RAYS, clear, error);
+    if (is_faint(&scratch->limits, clear, least)) {
+        const double share = sight_rays(r, s, host, FAINT_RAYS, error);
+        *error *= clear;
+        return clear * share;
+    }
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
     if (!many && !among)
         sight_list_sort(own, count);

@@ -27,13 +27,12 @@ static int add_plane(struct sight_bodies *b, const double plane[4])
     return b->planes++;
 }
 
-/* The plane of a face. */
-static int add_plane_of(struct sight_bodies *b, const struct element *e,
+/* The plane through a point of a side. */
+static int add_plane_of(struct sight_bodies *b, const double at[3], const double n[3],
                         const struct outline_frame *f)
 {
-    double p[3],
-        plane[4] = {dot3(e->normal, f->u), dot3(e->normal, f->v), dot3(e->normal, f->n), 0};
-    sight_in_plane(f, e->vertex[0], p);
+    double p[3], plane[4] = {dot3(n, f->u), dot3(n, f->v), dot3(n, f->n), 0};
+    sight_in_plane(f, at, p);
     plane[3] = dot3(plane, p);
     return add_plane(b, plane);
 }
@@ -81,47 +80,92 @@ static int add_foot(struct sight_bodies *b, const int *corner, int n, int left, 
     return add_edge(b, down, add_corner(b, foot[1]), left, right);
 }
 
-static int add_solid(struct sight_bodies *b, const struct exchange_tree *t, const struct body *body,
-                     const struct outline_frame *f)
+/* The corners and edges of a solid whose planes were added from `plane` on. */
+struct solid {
+    const double (*corner)[3];
+    const struct body_edge *edge;
+    int corners, edges, plane, planes;
+};
+
+/* Where the plane runs through a solid, the feet of its sides. */
+static int add_feet(struct sight_bodies *b, const struct solid *s, int first)
 {
     static const double DOWN[4] = {0, 0, 0, 1};
-    const struct bodies *all = &t->bodies;
-    const int corners = b->corners, planes = b->planes;
-    double p[3], low = INFINITY;
-    for (int i = 0; i < body->corners; i++) {
-        sight_in_plane(f, all->corners[body->corner + (uint32_t)i], p);
-        low = p[2] < low ? p[2] : low;
-        if (add_corner(b, p) < 0)
-            return -1;
-    }
-    for (int i = 0; i < body->faces; i++)
-        if (add_plane_of(b, &t->h.elements[all->faces[body->face + (uint32_t)i]], f) < 0)
-            return -1;
-    for (int i = 0; i < body->edges; i++) {
-        const struct body_edge *e = &all->edges[body->edge + (uint32_t)i];
-        if (add_upper(b, corners + e->from, corners + e->to, planes + e->left, planes + e->right)
-            < 0)
-            return -1;
-    }
-    b->body[b->count].foot = !(low > 0);
-    const int down = low > 0 ? 0 : add_plane(b, DOWN);
-    for (int i = 0; i < body->faces && !(low > 0); i++) {
+    const int down = add_plane(b, DOWN);
+    for (int i = 0; i < s->planes; i++) {
         int corner[4], n = 0;
-        for (int k = 0; k < body->edges;
-             k++) { /* two of the face's cross the plane, or none does */
-            const struct body_edge *e = &all->edges[body->edge + (uint32_t)k];
-            const int from = corners + (e->left == i ? e->from : e->to),
-                      to = corners + (e->left == i ? e->to : e->from);
+        for (int k = 0; k < s->edges; k++) { /* two of a side's cross the plane, or none does */
+            const struct body_edge *e = &s->edge[k];
+            const int from = first + (e->left == i ? e->from : e->to),
+                      to = first + (e->left == i ? e->to : e->from);
             if ((e->left != i && e->right != i)
                 || (b->corner[2][from] > 0) == (b->corner[2][to] > 0) || n == 4)
                 continue;
             corner[n++] = from;
             corner[n++] = to;
         }
-        if (n == 4 && add_foot(b, corner, n, planes + i, down) < 0)
+        if (n == 4 && add_foot(b, corner, n, s->plane + i, down) < 0)
             return -1;
     }
     return 0;
+}
+
+static int add_solid(struct sight_bodies *b, const struct solid *s, const struct outline_frame *f)
+{
+    const int first = b->corners;
+    double p[3], low = INFINITY;
+    for (int i = 0; i < s->corners; i++) {
+        sight_in_plane(f, s->corner[i], p);
+        low = p[2] < low ? p[2] : low;
+        if (add_corner(b, p) < 0)
+            return -1;
+    }
+    for (int i = 0; i < s->edges; i++) {
+        const struct body_edge *e = &s->edge[i];
+        if (add_upper(b, first + e->from, first + e->to, s->plane + e->left, s->plane + e->right)
+            < 0)
+            return -1;
+    }
+    b->body[b->count].foot = !(low > 0);
+    return low > 0 ? 0 : add_feet(b, s, first);
+}
+
+static int add_body_of(struct sight_bodies *b, const struct exchange_tree *t,
+                       const struct body *body, const struct outline_frame *f)
+{
+    const struct bodies *all = &t->bodies;
+    const struct solid s = {(const double(*)[3])(all->corners + body->corner),
+                            all->edges + body->edge,
+                            body->corners,
+                            body->edges,
+                            b->planes,
+                            body->faces + body->lids};
+    for (int i = 0; i < body->faces; i++) {
+        const struct element *e = &t->h.elements[all->faces[body->face + (uint32_t)i]];
+        if (add_plane_of(b, e->vertex[0], e->normal, f) < 0)
+            return -1;
+    }
+    for (int i = 0; i < body->lids; i++) {
+        const struct body_lid *lid = &all->lids[body->lid + (uint32_t)i];
+        if (add_plane_of(b, lid->at, lid->n, f) < 0)
+            return -1;
+    }
+    return add_solid(b, &s, f);
+}
+
+/* A face of no body is a plate: a front, a back, and nothing in it. */
+static int add_plate(struct sight_bodies *b, const struct element *e, const struct outline_frame *f)
+{
+    const double back[3] = {-e->normal[0], -e->normal[1], -e->normal[2]};
+    struct body_edge edge[4];
+    const struct solid s = {
+        (const double(*)[3])e->vertex, edge, e->vertices, e->vertices, b->planes, 2};
+    for (int i = 0; i < e->vertices; i++)
+        edge[i] = (struct body_edge){(uint8_t)i, (uint8_t)(i + 1 < e->vertices ? i + 1 : 0), 0, 1};
+    return add_plane_of(b, e->vertex[0], e->normal, f) < 0
+                   || add_plane_of(b, e->vertex[0], back, f) < 0
+               ? -1
+               : add_solid(b, &s, f);
 }
 
 /* The next body is made: where the one after it begins. */
@@ -137,24 +181,47 @@ static void add_body(struct sight_bodies *b)
     *body = (struct sight_body){b->corners, b->planes, b->edges, 0};
 }
 
+/* Where some faces are of no body, it takes so many faces for each shadow to be faster than
+ * without. By the time of points in rooms of boxes and in a maze. */
+enum { WORTH = 2 };
+
+/* What the faces of a list are of, each body and each plate once, by one of its faces. Returns how
+ * many, 0: too many. */
+static int find_solids(const struct bodies *all, const uint32_t *list, int count,
+                       uint32_t face[SIGHT_BODIES])
+{
+    int found = 0, plates = 0;
+    for (int i = 0; i < count; i++) {
+        const uint32_t of = all->of[list[i]];
+        int k = 0;
+        while (k < found && !(of && all->of[face[k]] == of))
+            k++;
+        if (k == SIGHT_BODIES)
+            return 0;
+        if (k < found)
+            continue;
+        face[found++] = list[i];
+        plates += !of;
+    }
+    return plates > 0 && WORTH * found > count ? 0 : found;
+}
+
 int sight_bodies_place(struct sight_bodies *b, const struct exchange_tree *t, const uint32_t *list,
                        int count, const struct outline_frame *f)
 {
-    uint32_t met[SIGHT_BODIES];
-    int bodies = 0;
+    uint32_t face[SIGHT_BODIES];
+    const int solids = find_solids(&t->bodies, list, count, face);
     b->count = b->corners = b->planes = b->edges = 0;
     b->body[0] = (struct sight_body){0};
-    for (int i = 0; i < count; i++) {
-        const uint32_t of = t->bodies.of[list[i]];
-        int k = 0;
-        while (k < bodies && met[k] != of)
-            k++;
-        if (of && k < bodies)
-            continue;
-        if (!of || bodies == SIGHT_BODIES || add_solid(b, t, &t->bodies.body[of - 1], f) < 0)
+    if (count > 0 && solids == 0)
+        return 0;
+    for (int i = 0; i < solids; i++) {
+        const uint32_t of = t->bodies.of[face[i]];
+        if ((of ? add_body_of(b, t, &t->bodies.body[of - 1], f)
+                : add_plate(b, &t->h.elements[face[i]], f))
+            < 0)
             return 0;
         add_body(b);
-        met[bodies++] = of;
     }
     for (int i = b->corners; i % LANES_MOST; i++) /* computed, not read */
         b->corner[0][i] = b->corner[1][i] = b->corner[2][i] = 0;

@@ -9,7 +9,7 @@
 
 /* the most of a list, and of all their corners, planes and edges */
 enum {
-    SIGHT_BODIES = 32,
+    SIGHT_BODIES = 64,
     SIGHT_BODY_CORNERS = 512,
     SIGHT_BODY_PLANES = 512,
     SIGHT_BODY_EDGES = 1024

@@ -71,6 +71,30 @@ static int is_seen(const struct sight_eyes *eyes, const struct element *face)
     return 0;
 }
 
+/* Does all of a face lie beyond one side of `to`, but for `near`, as seen from anywhere on `from`,
+ * which is in front of it? */
+static int is_beyond(const struct element *face, const struct element *from,
+                     const struct element *to, double near)
+{
+    int beyond = 0;
+    for (int c = 0; c < from->vertices; c++)
+        if (height3(from->vertex[c], to->vertex[0], to->normal) < -near)
+            return 0;
+    for (int i = 0; i < to->vertices && !beyond; i++) {
+        const double *a = to->vertex[i], *b = to->vertex[i + 1 < to->vertices ? i + 1 : 0];
+        beyond = 1;
+        for (int c = 0; c < from->vertices; c++) {
+            double side[3], sight[3], out[3];
+            sub3(side, b, a);
+            sub3(sight, from->vertex[c], a);
+            cross3(out, side, sight);
+            for (int k = 0; k < face->vertices; k++)
+                beyond &= height3(face->vertex[k], a, out) >= -near * length3(out);
+        }
+    }
+    return beyond;
+}
+
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
                     const uint32_t *faces, int count)
@@ -81,7 +105,8 @@ double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
         return 0;
     for (int i = 0; i < count; i++) {
         const struct element *face = &tree->h.elements[faces[i]];
-        if (is_seen(eyes, face)
+        if (is_seen(eyes, face) || is_beyond(face, piece, to, tree->h.flat)
+            || is_beyond(face, to, piece, tree->h.flat)
             || !candidates_meets(&tree->h, &shaft, tree->host.ray_offset, faces[i]))
             continue;
         sum += fmin(fmin(exchange_through(face, piece), exchange_through(face, to)),

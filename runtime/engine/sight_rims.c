@@ -17,12 +17,33 @@
  * edge, or has one too many. */
 static const double OPEN = 1e-9;
 
+/* What is wider apart than so much of the polygon's size is apart, whatever shadows grow by. */
+static const double APART = 1e-6;
+
 /* The rim of what is seen, added edge by edge. */
 struct rim {
     struct sight_eye eye;
     struct casting cast;
-    double open; /* what is counted where edges end, less where they begin */
+    double box[SIGHT_BODIES][4]; /* around shadows, APART wider: low and high of each coordinate */
+    double open;                 /* what is counted where edges end, less where they begin */
 };
+
+static void find_boxes(struct rim *rim)
+{
+    const double more = APART * rim->cast.own;
+    for (int s = 0; s < rim->cast.count; s++) {
+        const struct body_shadow *shadow = &rim->cast.shadow[s];
+        for (int k = 0; k < 2; k++) {
+            double low = shadow->p[0][k], high = low;
+            for (int i = 1; i < shadow->n; i++) {
+                low = shadow->p[i][k] < low ? shadow->p[i][k] : low;
+                high = shadow->p[i][k] > high ? shadow->p[i][k] : high;
+            }
+            rim->box[s][k] = low - more;
+            rim->box[s][2 + k] = high + more;
+        }
+    }
+}
 
 /* What of an edge lies outside of shadows: intervals of it that do not, in their order. */
 struct hidden_parts {
@@ -122,9 +143,15 @@ static void add_shadow(struct rim *rim, int own, const double p[2], const double
 {
     const struct casting *c = &rim->cast;
     struct hidden_parts parts;
+    const double low_u = p[0] < q[0] ? p[0] : q[0], high_u = p[0] < q[0] ? q[0] : p[0],
+                 low_v = p[1] < q[1] ? p[1] : q[1], high_v = p[1] < q[1] ? q[1] : p[1];
     parts.count = 0; /* no more of it is read */
     for (int s = 0; s < c->count; s++) {
-        double low = 0, high = s == own ? 0 : 1;
+        const double *box = rim->box[s];
+        double low = 0, high = 1;
+        if ((s == own) | (high_u < box[0]) | (low_u > box[2]) | (high_v < box[1])
+            | (low_v > box[3]))
+            continue;
         for (int k = c->first[s]; k < c->first[s + 1] && low < high; k++) {
             const struct body_line *other = &c->cut[k];
             narrow(other->a * p[0] + other->b * p[1] - other->c,
@@ -168,6 +195,7 @@ double sight_rims_past(const struct sight *sight, const double x[3], const doubl
         (void)sight_eye_factor(&rim.eye, whole);
         return *whole;
     }
+    find_boxes(&rim);
     for (int i = 0; i < cell->n; i++)
         add_own(&rim, cell, i);
     for (int s = 0; s < c->count; s++) {

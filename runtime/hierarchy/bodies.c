@@ -1,57 +1,203 @@
 /* bodies.c - convex solids of a few faces.
  *
- * Faces that follow each other across their edges until none is left over close a shell; where no
- * corner of it lies in front of any of its planes, the shell is the surface of a convex solid, its
- * fronts outside. So what it hides from a point is one convex polygon, whatever its faces are.
- * Invariant: a face is of one body at most; a body has no free edge, no bent face and no face whose
- * front looks inside.
+ * Faces that follow each other across their edges close a shell, or leave edges free that go around
+ * sides without a face: a solid that stands on something, as a chair's leg between floor and seat.
+ * Where other faces cover such a side wholly it is shut by a lid; what goes in there meets them, so
+ * the lid changes nothing outside. Where no corner of a closed shell lies in front of any of its
+ * planes, it is the surface of a convex solid, its fronts outside. So what it hides from a point is
+ * one convex polygon, whatever its faces are. Invariant: a face is of one body at most; a body has
+ * no free edge but its lids', no bent face and no face whose front looks inside.
  * [a closed surface that each of its planes supports is its hull's; derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/bodies.h"
+#include "hierarchy/lids.h"
+#include "kernel/constants.h"
 #include "util/array.h"
 
-/* The faces that follow each other from one on. Returns how many; 0: some edge is free, or there
- * are more than a body has. */
-static int follow(const struct hierarchy *h, const struct mates *mates, uint32_t from,
-                  uint32_t faces[BODY_FACES])
+/* An edge that nobody is across: of a face of the shell, from its corner to the next one. */
+struct free_edge {
+    int face, lid; /* -1: of none yet */
+    const double *from, *to;
+};
+
+/* A body in the making. */
+struct shell {
+    const struct hierarchy *h;
+    int faces, edges, lids;
+    uint32_t face[BODY_FACES];
+    struct free_edge edge[BODY_CORNERS];
+    struct shell_lid {
+        double corner[BODY_CORNERS][3], normal[3], area, around;
+        int n;
+    } lid[BODY_LIDS];
+};
+
+/* The faces that follow each other from one on, and what edges they leave. Returns 0 when there are
+ * more than a body has, or fronts look to both sides. */
+static int follow(struct shell *s, const struct mates *mates, uint32_t from)
 {
-    int count = 1;
-    faces[0] = from;
-    for (int at = 0; at < count; at++)
-        for (int i = 0; i < h->elements[faces[at]].vertices; i++) {
-            const int64_t mate = mates->of[faces[at]][i];
+    s->faces = 1;
+    s->edges = s->lids = 0;
+    s->face[0] = from;
+    for (int at = 0; at < s->faces; at++) {
+        const struct element *e = &s->h->elements[s->face[at]];
+        for (int i = 0; i < e->vertices; i++) {
+            const int64_t mate = mates->of[s->face[at]][i];
             int k = 0;
-            if (mate == NO_MATE || mate % 2)
+            if (mate == NO_MATE) {
+                s->edge[s->edges++] = (struct free_edge){
+                    at, -1, e->vertex[i], e->vertex[i + 1 < e->vertices ? i + 1 : 0]};
+                continue;
+            }
+            if (mate % 2)
                 return 0;
-            while (k < count && faces[k] != (uint32_t)(mate / 2))
+            while (k < s->faces && s->face[k] != (uint32_t)(mate / 2))
                 k++;
             if (k == BODY_FACES)
                 return 0;
-            if (k == count)
-                faces[count++] = (uint32_t)(mate / 2);
+            if (k == s->faces)
+                s->face[s->faces++] = (uint32_t)(mate / 2);
         }
-    return count;
+    }
+    return 1;
 }
 
-/* Does no corner lie in front of a plane, nor of a face off its own, and some behind each by more
- * than rounding? Else points in the plane of a plate were inside. */
-static int is_convex(const struct hierarchy *h, const uint32_t *faces, int count)
+/* The one free edge that begins where another ends, but for rounding; NULL: none does, or more
+ * than one. */
+static struct free_edge *next_edge(struct shell *s, const struct free_edge *edge)
 {
-    for (int i = 0; i < count; i++) {
-        const struct element *plane = &h->elements[faces[i]];
-        double deepest = 0;
-        for (int j = 0; j < count; j++) {
-            const struct element *e = &h->elements[faces[j]];
-            for (int k = 0; k < e->vertices; k++) {
-                const double height = height3(e->vertex[k], plane->vertex[0], plane->normal);
-                if (height > h->flat || (i == j && height < -h->flat))
-                    return 0;
-                deepest = height < deepest ? height : deepest;
-            }
-        }
-        if (!(deepest < -8 * h->flat))
+    struct free_edge *next = NULL;
+    for (int i = 0; i < s->edges; i++) {
+        double apart[3];
+        sub3(apart, s->edge[i].from, edge->to);
+        if (dot3(apart, apart) > s->h->flat * s->h->flat)
+            continue;
+        if (next)
+            return NULL;
+        next = &s->edge[i];
+    }
+    return next;
+}
+
+/* The side that free edges go around from one on, as seen from outside: the other way round than
+ * its neighbours go along them. Returns 0 when it is open. */
+static int add_lid(struct shell *s, struct free_edge *first)
+{
+    struct shell_lid *lid = &s->lid[s->lids];
+    struct free_edge *edge = first;
+    lid->around = 0;
+    lid->n = 0;
+    do {
+        double along[3];
+        if (edge->lid >= 0)
+            return 0;
+        edge->lid = s->lids;
+        sub3(along, edge->to, edge->from);
+        lid->around += length3(along);
+        lid->n++;
+        memcpy(lid->corner[BODY_CORNERS - lid->n], edge->to, sizeof lid->corner[0]);
+        edge = next_edge(s, edge);
+    } while (edge && edge != first);
+    memmove(lid->corner, lid->corner + BODY_CORNERS - lid->n, (size_t)lid->n * sizeof *lid->corner);
+    lid->area = polygon_normal(lid->corner, (uint32_t)lid->n, lid->normal);
+    s->lids++;
+    return edge && lid->area > 0;
+}
+
+static int find_lids(struct shell *s)
+{
+    for (int i = 0; i < s->edges; i++)
+        if (s->edge[i].lid < 0 && (s->lids == BODY_LIDS || !add_lid(s, &s->edge[i])))
+            return 0;
+    return 1;
+}
+
+/* How far corners reach in front of a plane, and behind. */
+static void reach(const double (*v)[3], int n, const double at[3], const double normal[3],
+                  double *high, double *low)
+{
+    for (int k = 0; k < n; k++) {
+        const double height = height3(v[k], at, normal);
+        *high = height > *high ? height : *high;
+        *low = height < *low ? height : *low;
+    }
+}
+
+/* Is a side flat, and does no corner lie in front of its plane, and some behind by more than
+ * rounding? Else points in the plane of a plate were inside. */
+static int supports(const struct shell *s, const double (*v)[3], int n, const double normal[3])
+{
+    double high = 0, low = 0, deepest = 0;
+    reach(v, n, v[0], normal, &high, &low);
+    for (int i = 0; i < s->faces; i++) {
+        const struct element *e = &s->h->elements[s->face[i]];
+        reach((const double(*)[3])e->vertex, e->vertices, v[0], normal, &high, &deepest);
+    }
+    return high <= s->h->flat && low >= -s->h->flat && deepest < -8 * s->h->flat;
+}
+
+static int is_convex(const struct shell *s)
+{
+    for (int i = 0; i < s->faces; i++) {
+        const struct element *e = &s->h->elements[s->face[i]];
+        if (!supports(s, (const double(*)[3])e->vertex, e->vertices, e->normal))
+            return 0;
+    }
+    for (int i = 0; i < s->lids; i++)
+        if (!supports(s, (const double(*)[3])s->lid[i].corner, s->lid[i].n, s->lid[i].normal))
+            return 0;
+    return 1;
+}
+
+/* What faces below an element cover of a lid: those that look the same way as it, and the others
+ * (m2). Faces that look one way do not lie on each other (overlaps.h). */
+static void add_cover(const struct hierarchy *h, uint32_t index, const struct shell_lid *lid,
+                      double cover[2])
+{
+    const struct element *e = &h->elements[index];
+    const double(*v)[3] = (const double(*)[3])lid->corner;
+    double high = 0, low = 0;
+    struct lid over;
+    for (int k = 0; k < 3 && !e->vertices; k++) {
+        int i = 0, j = 0;
+        while (i < lid->n && v[i][k] > e->vertex[1][k] + h->flat)
+            i++;
+        while (j < lid->n && v[j][k] < e->vertex[0][k] - h->flat)
+            j++;
+        if (i == lid->n || j == lid->n)
+            return;
+    }
+    if (!h->solid[index]) {
+        for (uint32_t c = 0; c < e->children; c++)
+            add_cover(h, e->child + c, lid, cover);
+        return;
+    }
+    const double cosine = dot3(e->normal, lid->normal);
+    if (!(fabs(cosine) > GROUP_COSINE))
+        return;
+    reach(v, lid->n, e->vertex[0], e->normal, &high, &low);
+    if (high > h->flat || low < -h->flat)
+        return;
+    lid_of(&over, (const double(*)[3])e->vertex, e->vertices, lid->normal, h->flat);
+    for (int i = 2; i < lid->n; i++) {
+        double part[3][3];
+        memcpy(part[0], v[0], sizeof part[0]);
+        memcpy(part[1], v[i - 1], 2 * sizeof part[0]);
+        cover[cosine > 0] += lid_area(&over, (const double(*)[3])part, 3, lid->normal);
+    }
+}
+
+/* Are all lids covered, but for what is narrower than faces may reach off their planes? */
+static int is_shut(const struct shell *s)
+{
+    for (int i = 0; i < s->lids; i++) {
+        const struct shell_lid *lid = &s->lid[i];
+        const double most = lid->area - s->h->flat * lid->around;
+        double cover[2] = {0, 0};
+        add_cover(s->h, 0, lid, cover);
+        if (!(cover[0] >= most || cover[1] >= most))
             return 0;
     }
     return 1;
@@ -68,62 +214,87 @@ static int place_of(double (*corners)[3], int count, const double p[3])
     return at;
 }
 
-/* The corners and edges of a body, the last of the lists. */
-static void measure(struct body *body, struct bodies *b, const struct hierarchy *h,
+/* The faces, corners, edges and lids of a body, the last of the lists. */
+static void measure(struct body *body, struct bodies *b, const struct shell *s,
                     const struct mates *mates)
 {
-    const uint32_t *faces = b->faces + body->face;
     double(*corners)[3] = b->corners + body->corner;
     struct body_edge *edges = b->edges + body->edge;
-    int count = 0;
-    for (int f = 0; f < body->faces; f++) {
-        const struct element *e = &h->elements[faces[f]];
+    int count = 0, free = 0;
+    for (int f = 0; f < s->faces; f++) {
+        const struct element *e = &s->h->elements[s->face[f]];
+        b->faces[body->face + (uint32_t)f] = s->face[f];
         for (int i = 0; i < e->vertices; i++) {
+            const int64_t mate = mates->of[s->face[f]][i];
             int at[2], right = 0;
             for (int end = 0; end < 2; end++) {
                 at[end] = place_of(corners, count, e->vertex[(i + end) % e->vertices]);
                 count += at[end] == count;
             }
-            while (faces[right] != (uint32_t)(mates->of[faces[f]][i] / 2))
-                right++;
+            if (mate == NO_MATE)
+                right = s->faces + s->edge[free++].lid;
+            else
+                while (s->face[right] != (uint32_t)(mate / 2))
+                    right++;
             if (right > f)
                 edges[body->edges++] =
                     (struct body_edge){(uint8_t)at[0], (uint8_t)at[1], (uint8_t)f, (uint8_t)right};
         }
     }
+    for (int i = 0; i < s->lids; i++) {
+        struct body_lid *lid = &b->lids[body->lid + (uint32_t)i];
+        memcpy(lid->n, s->lid[i].normal, sizeof lid->n);
+        memcpy(lid->at, s->lid[i].corner[0], sizeof lid->at);
+    }
+    body->faces = (uint8_t)s->faces;
     body->corners = (uint8_t)count;
+    body->lids = (uint8_t)s->lids;
+}
+
+/* The next body of the lists, empty yet. Returns 0, or -1 when out of memory. */
+static int make_room(struct bodies *b, uint32_t count, const struct body *next, size_t room[5])
+{
+    return array_reserve(&b->body, count + 1, &room[0], sizeof *b->body) < 0
+                   || array_reserve(&b->faces, next->face + BODY_FACES, &room[1], sizeof *b->faces)
+                          < 0
+                   || array_reserve(&b->corners, next->corner + BODY_CORNERS, &room[2],
+                                    sizeof *b->corners)
+                          < 0
+                   || array_reserve(&b->edges, next->edge + BODY_EDGES, &room[3], sizeof *b->edges)
+                          < 0
+                   || array_reserve(&b->lids, next->lid + BODY_LIDS, &room[4], sizeof *b->lids) < 0
+               ? -1
+               : 0;
 }
 
 int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates *mates)
 {
-    uint32_t found[BODY_FACES], count = 0;
-    size_t room[4] = {0};
-    struct body last = {0};
+    struct shell shell = {.h = h};
+    uint32_t count = 0;
+    size_t room[5] = {0};
+    struct body next = {0};
     memset(b, 0, sizeof *b);
     b->of = calloc((size_t)h->built + 1, sizeof *b->of);
     if (!b->of)
         return -1;
     for (uint32_t i = 0; i < h->built; i++) {
-        const int faces = b->of[i] || mates->of[i][0] == NO_MATE ? 0 : follow(h, mates, i, found);
-        if (faces == 0 || !is_convex(h, found, faces))
+        if (b->of[i] || !h->solid[i] || !follow(&shell, mates, i) || !find_lids(&shell)
+            || !is_convex(&shell) || !is_shut(&shell))
             continue;
-        last = (struct body){last.face + last.faces,
-                             last.corner + last.corners,
-                             last.edge + last.edges,
-                             (uint8_t)faces,
+        if (make_room(b, count, &next, room) < 0)
+            return -1;
+        measure(&next, b, &shell, mates);
+        b->body[count++] = next;
+        for (int k = 0; k < shell.faces; k++)
+            b->of[shell.face[k]] = count;
+        next = (struct body){next.face + next.faces,
+                             next.corner + next.corners,
+                             next.edge + next.edges,
+                             next.lid + next.lids,
+                             0,
+                             0,
                              0,
                              0};
-        if (array_reserve(&b->body, count + 1, &room[0], sizeof *b->body) < 0
-            || array_reserve(&b->faces, last.face + BODY_FACES, &room[1], sizeof *b->faces) < 0
-            || array_reserve(&b->corners, last.corner + BODY_CORNERS, &room[2], sizeof *b->corners)
-                   < 0
-            || array_reserve(&b->edges, last.edge + BODY_EDGES, &room[3], sizeof *b->edges) < 0)
-            return -1;
-        memcpy(b->faces + last.face, found, (size_t)faces * sizeof *found);
-        measure(&last, b, h, mates);
-        b->body[count++] = last;
-        for (int k = 0; k < faces; k++)
-            b->of[found[k]] = count;
     }
     return 0;
 }
@@ -135,5 +306,6 @@ void bodies_close(struct bodies *b)
     free(b->faces);
     free(b->corners);
     free(b->edges);
+    free(b->lids);
     memset(b, 0, sizeof *b);
 }

@@ -9,7 +9,8 @@
  * the planes stand clusters.
  *
  * What blocks light is as few as possible: the largest groups whose faces tile their outline stand
- * in shafts as one face each.
+ * in shafts as one face each. So what a polygon was cut into is not taken apart before what is
+ * beside it.
  *
  * Invariant: a group's faces lie in its plane, to h.flat, and within its outline, to rounding; the
  * tree depends on the faces alone.
@@ -30,8 +31,13 @@ struct builder {
     const struct hierarchy *plain; /* measured face elements, and the scene's box */
     double flat, size;             /* m */
     struct coplanar_groups planes;
-    /* [face_count]: by face, the middle of its rectangle in its plane's frame */
-    double (*at)[2];
+    /* [face_count]: by face, the middle of its rectangle in its plane's frame, and of its
+     * polygon's; the first face of that, where its rectangle is */
+    double (*at)[2], (*polygon_at)[2];
+    uint32_t *first;
+    struct rectangle {
+        double low[2], high[2];
+    } * box;
     double (*centre)[3]; /* [planes]: the middle of the plane's box */
     struct outliner outliner;
     struct face_share *shares; /* [face_count]: by place in the tree's order */
@@ -93,6 +99,15 @@ static void make_face(struct builder *b, uint32_t index, uint32_t at)
     b->h->solid[index] = 1;
 }
 
+/* Are all in the range parts of one? */
+static int is_whole(const uint32_t *whole, const uint32_t *list, struct face_range range)
+{
+    uint32_t i = range.from;
+    while (whole && i < range.to && whole[list[i]] == whole[list[range.from]])
+        i++;
+    return whole && i == range.to;
+}
+
 /* Element `index` becomes the group's surface. */
 static void make_outline(struct builder *b, uint32_t index, const struct group_frame *f,
                          struct face_range range, int within_solid)
@@ -104,7 +119,10 @@ static void make_outline(struct builder *b, uint32_t index, const struct group_f
     e->face = *faces.face;
     e->group = 1;
     b->h->range[index] = range;
-    b->h->solid[index] = (unsigned char)(!within_solid && group_tiles(&b->outliner, f, faces, e));
+    b->h->solid[index] = (unsigned char)(!within_solid
+                                         && (is_whole(b->first, b->h->order, range)
+                                                 ? group_fills(f, e)
+                                                 : group_tiles(&b->outliner, f, faces, e)));
 }
 
 /* ---- splitting */
@@ -140,6 +158,7 @@ struct places {
     const double *centre;
     size_t stride;
     int axes;
+    const uint32_t *whole; /* of items that stay together as long as others are there; or NULL */
 };
 
 /* The axis along which the n items lie farthest apart; the first of those that are alike. */
@@ -173,7 +192,7 @@ static uint32_t halve(const struct builder *b, const struct places *p, uint32_t 
 }
 
 /* Parts of a range of the list, the widest halved until there are FANOUT, or none is wider than
- * `least`. Returns how many. */
+ * `least`, or is whole. Returns how many. */
 static int divide_range(const struct builder *b, const struct places *p, uint32_t *list,
                         struct face_range range, struct along *scratch,
                         struct face_range part[FANOUT], uint32_t least)
@@ -182,16 +201,52 @@ static int divide_range(const struct builder *b, const struct places *p, uint32_
     part[0] = range;
     while (parts < FANOUT) {
         int widest = 0;
-        for (int k = 1; k < parts; k++)
-            if (part[k].to - part[k].from > part[widest].to - part[widest].from)
+        uint32_t n = 0;
+        for (int k = 0; k < parts; k++)
+            if (part[k].to - part[k].from > n
+                && (parts == 1 || !is_whole(p->whole, list, part[k]))) {
                 widest = k;
-        uint32_t n = part[widest].to - part[widest].from;
+                n = part[k].to - part[k].from;
+            }
         if (n < 2 || (n <= least && parts > 1))
             break;
         uint32_t cut = halve(b, p, list + part[widest].from, n, scratch);
         memmove(&part[widest + 1], &part[widest], (size_t)(parts - widest) * sizeof *part);
         part[widest].to = part[widest + 1].from = part[widest].from + cut;
         parts++;
+    }
+    return parts;
+}
+
+static int each_face(struct face_range range, struct face_range part[LOWEST_GROUP])
+{
+    int parts = 0;
+    for (uint32_t i = range.from; i < range.to; i++)
+        part[parts++] = (struct face_range){i, i + 1};
+    return parts;
+}
+
+/* The faces of each polygon in the range, which is put in that order. */
+static int each_polygon(const struct builder *b, struct face_range range,
+                        struct face_range part[LOWEST_GROUP])
+{
+    uint32_t *order = b->h->order;
+    int parts = 0;
+    for (uint32_t i = range.from; i < range.to; i++) {
+        const uint32_t face = order[i];
+        int k = 0;
+        while (k < parts && b->first[order[part[k].from]] != b->first[face])
+            k++;
+        if (k == parts) {
+            part[parts++] = (struct face_range){i, i + 1};
+            continue;
+        }
+        memmove(&order[part[k].to + 1], &order[part[k].to], (i - part[k].to) * sizeof *order);
+        order[part[k].to++] = face;
+        for (k++; k < parts; k++) {
+            part[k].from++;
+            part[k].to++;
+        }
     }
     return parts;
 }
@@ -208,14 +263,18 @@ static void make_group(struct builder *b, struct along *scratch, uint32_t index,
     make_outline(b, index, f, range, within_solid);
     within_solid |= b->h->solid[index];
     uint32_t first;
+    const int whole = is_whole(b->first, b->h->order, range);
     if (n <= LOWEST_GROUP) {
-        first = add_children(b, index, (int)n);
-        for (uint32_t i = 0; i < n; i++)
-            make_face(b, first + i, range.from + i);
+        struct face_range part[LOWEST_GROUP];
+        const int parts = whole ? each_face(range, part) : each_polygon(b, range, part);
+        first = add_children(b, index, parts);
+        for (int k = 0; k < parts; k++)
+            make_group(b, scratch, first + (uint32_t)k, f, part[k], within_solid);
         return;
     }
     struct face_range part[FANOUT];
-    const struct places in_plane = {b->at[0], 2, 2};
+    const struct places in_plane = {whole ? b->at[0] : b->polygon_at[0], 2, 2,
+                                    whole ? NULL : b->first};
     int parts = divide_range(b, &in_plane, b->h->order, range, scratch, part, LOWEST_GROUP);
     first = add_children(b, index, parts);
     for (int k = 0; k < parts; k++)
@@ -243,6 +302,38 @@ static void make_cluster_element(struct builder *b, uint32_t index)
     element_measure_cluster(&b->h->elements[index], b->shares, &box, range);
 }
 
+/* Where the faces of a plane are in it, and the polygons that they are parts of. */
+static void find_places(struct builder *b, const struct group_frame *f, struct face_range range)
+{
+    for (uint32_t i = range.from; i < range.to; i++) {
+        const uint32_t face = b->h->order[i];
+        double low[2], high[2];
+        group_bounds(&b->outliner, f, (struct group_faces){&face, 1}, low, high);
+        struct rectangle *box = &b->box[b->first[face]];
+        for (int k = 0; k < 2; k++) {
+            b->at[face][k] = 0.5 * (low[k] + high[k]);
+            box->low[k] = low[k] < box->low[k] ? low[k] : box->low[k];
+            box->high[k] = high[k] > box->high[k] ? high[k] : box->high[k];
+        }
+    }
+    for (uint32_t i = range.from; i < range.to; i++) {
+        const uint32_t face = b->h->order[i];
+        const struct rectangle *box = &b->box[b->first[face]];
+        for (int k = 0; k < 2; k++)
+            b->polygon_at[face][k] = 0.5 * (box->low[k] + box->high[k]);
+    }
+}
+
+/* Of each face the first one of its polygon: parts are neighbours in the list. */
+static void find_polygons(struct builder *b)
+{
+    const struct face *faces = b->plain->faces;
+    for (uint32_t i = 0; i < b->plain->face_count; i++) {
+        b->first[i] = i > 0 && faces[i].input == faces[i - 1].input ? b->first[i - 1] : i;
+        b->box[i] = (struct rectangle){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    }
+}
+
 /* Element `index` becomes the cluster of the planes list[range], or the one plane's group. Orders
  * the faces as it goes: `at` is where the first one's stand. */
 static void make_cluster(struct builder *b, struct along *scratch, uint32_t *list, uint32_t *order,
@@ -256,19 +347,13 @@ static void make_cluster(struct builder *b, struct along *scratch, uint32_t *lis
         if (faces.to - faces.from > 1) {
             group_frame_of(&b->outliner,
                            (struct group_faces){b->h->order + at, faces.to - faces.from}, &f);
-            for (uint32_t i = faces.from; i < faces.to; i++) {
-                double low[2], high[2];
-                const struct group_faces one = {b->h->order + i, 1};
-                group_bounds(&b->outliner, &f, one, low, high);
-                for (int k = 0; k < 2; k++)
-                    b->at[b->h->order[i]][k] = 0.5 * (low[k] + high[k]);
-            }
+            find_places(b, &f, faces);
         }
         make_group(b, scratch, index, &f, faces, 0);
         return;
     }
     struct face_range part[FANOUT];
-    const struct places in_space = {b->centre[0], 3, 3};
+    const struct places in_space = {b->centre[0], 3, 3, NULL};
     int parts =
         range.to - range.from > 1 ? divide_range(b, &in_space, list, range, scratch, part, 1) : 1;
     if (parts == 1)
@@ -294,6 +379,9 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
     h->face_count = n;
     h->flat = flat;
     b.at = calloc(n, sizeof *b.at);
+    b.polygon_at = calloc(n, sizeof *b.polygon_at);
+    b.first = malloc(n * sizeof *b.first);
+    b.box = malloc(n * sizeof *b.box);
     b.centre = malloc(n * sizeof *b.centre);
     b.shares = malloc(n * sizeof *b.shares);
     h->elements = malloc(most * sizeof *h->elements);
@@ -302,8 +390,9 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
     h->order = malloc(n * sizeof *h->order);
     h->range = malloc(most * sizeof *h->range);
     h->solid = calloc(most, 1);
-    if (!list || !scratch || !b.at || !b.centre || !b.shares || !h->elements || !h->face_element
-        || !h->order || !h->range || !h->solid || outliner_open(&b.outliner, plain, flat) < 0
+    if (!list || !scratch || !b.at || !b.polygon_at || !b.first || !b.box || !b.centre || !b.shares
+        || !h->elements || !h->face_element || !h->order || !h->range || !h->solid
+        || outliner_open(&b.outliner, plain, flat) < 0
         || coplanar_groups_find(&b.planes, plain, flat) < 0)
         goto done;
     for (int k = 0; k < 3; k++) {
@@ -313,6 +402,7 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
         b.size = side > b.size ? side : b.size;
     }
     find_centres(&b);
+    find_polygons(&b);
     for (uint32_t i = 0; i < b.planes.count; i++)
         list[i] = i;
     h->count = 1;
@@ -327,6 +417,9 @@ done:
     free(list);
     free(scratch);
     free(b.at);
+    free(b.polygon_at);
+    free(b.first);
+    free(b.box);
     free(b.centre);
     outliner_close(&b.outliner);
     free(b.shares);

@@ -210,6 +210,15 @@ static int on_side(double (*corner)[2], int n, double (*end)[2], double near)
     return 0;
 }
 
+int group_fills(const struct group_frame *f, const struct element *e)
+{
+    double corner[4][2];
+    for (int c = 0; c < e->vertices; c++)
+        in_frame(f, e->vertex[c], corner[c]);
+    const double whole = flat_area((const double(*)[2])corner, e->vertices);
+    return fabs(e->area - whole) <= GROUP_GAPS * whole;
+}
+
 /* Edges run both ways between neighbours: written from the smaller end, with which way in the
  * list's half. */
 int group_tiles(struct outliner *o, const struct group_frame *f, struct group_faces faces,
@@ -218,11 +227,10 @@ int group_tiles(struct outliner *o, const struct group_frame *f, struct group_fa
     double corner[4][2], near = o->flat;
     size_t count[2] = {0, 0};
     struct directed *half[2] = {o->edges, o->edges + 4 * (size_t)faces.count};
+    if (!group_fills(f, e))
+        return 0;
     for (int c = 0; c < e->vertices; c++)
         in_frame(f, e->vertex[c], corner[c]);
-    double whole = flat_area((const double(*)[2])corner, e->vertices);
-    if (fabs(e->area - whole) > GROUP_GAPS * whole)
-        return 0;
     for (uint32_t i = 0; i < faces.count; i++) {
         const struct element *g = face_of(o, faces.face[i]);
         for (int c = 0; c < g->vertices; c++) {

@@ -36,7 +36,11 @@ void group_bounds(const struct outliner *o, const struct group_frame *frame,
 void group_outline(struct outliner *o, const struct group_frame *frame, struct group_faces faces,
                    struct element *e);
 
-/* Do the faces tile the outline that e has? */
+/* Have the faces the area of the outline that e has? All parts of a polygon tile it then: they do
+ * not lie on each other (overlaps.h). */
+int group_fills(const struct group_frame *frame, const struct element *e);
+
+/* Do any faces tile the outline that e has? */
 int group_tiles(struct outliner *o, const struct group_frame *frame, struct group_faces faces,
                 const struct element *e);
 

@@ -114,6 +114,29 @@ START_TEST(test_small_shades)
 }
 END_TEST
 
+/* The soffit of a doorway as a cupboard sees it. The walls beside and above touch its sides; one of
+ * them hides some of it, the others hide nothing from anywhere, and are no reason for doubt. */
+START_TEST(test_touching)
+{
+    static const double quad[5][4][3] = {
+        {{.5, 3, 0}, {.5, 4.4, 0}, {.5, 4.4, 1.9}, {.5, 3, 1.9}},
+        {{3.1, 3, 2.1}, {3, 3, 2.1}, {3, 3.9, 2.1}, {3.1, 3.9, 2.1}},
+        {{3, 8, 0}, {3, 3.9, 0}, {3, 3.9, 2.5}, {3, 8, 2.5}},
+        {{3, 3, 0}, {3, 0, 0}, {3, 0, 2.5}, {3, 3, 2.5}},
+        {{3, 3.9, 2.1}, {3, 3, 2.1}, {3, 3, 2.5}, {3, 3.9, 2.5}}};
+    static const double tolerance[] = {3e-4, 1e-4};
+    double f[25];
+    const double right = judge_factor(quad[1], quad[0], quad[2], 256);
+    ck_assert_double_lt(right, judge_factor(quad[1], quad[0], NULL, 256) * (1 - 1e-3));
+    for (int i = 0; i < 2; i++) {
+        const double said = factors_of(5, quad, tolerance[i], f);
+        ck_assert_double_eq_tol(f[5], right, tolerance[i] * right);
+        ck_assert_double_le(fabs(f[5] - right), said);
+        ck_assert_double_le(said, tolerance[i]);
+    }
+}
+END_TEST
+
 /* Five triangles of which two go through others are many faces by then, but each entry is looked at
  * as in other small scenes. Right is an adaptive rule over the first, with all that hides of the
  * second cut out in space. */
@@ -159,7 +182,10 @@ static void open_row_of_boxes(void)
                      minus_v[3] = {u[1], -u[0], 0};
         double at[5][3];
         for (int k = 0; k < 3; k++) {
-            const double corner = (k == 0 ? 2.0 * b : k == 1 ? 3 * sin(b) : 0) - 0.5 * u[k] - 0.5 * v[k];
+            const double corner = (k == 0   ? 2.0 * b
+                                   : k == 1 ? 3 * sin(b)
+                                            : 0)
+                                  - 0.5 * u[k] - 0.5 * v[k];
             at[0][k] = corner;
             at[1][k] = corner + u[k];
             at[2][k] = corner + u[k] + v[k];
@@ -300,6 +326,7 @@ int main(void)
     suite_add_tcase(suite, tests);
     tcase_add_test(tests, test_crossing_planes);
     tcase_add_test(tests, test_small_shades);
+    tcase_add_test(tests, test_touching);
     tcase_add_test(tests, test_crossing_faces);
     tcase_add_test(tests, test_faint);
     tcase_add_test(tests, test_random_scenes);
