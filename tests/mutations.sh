@@ -122,6 +122,7 @@ small shades are missed | runtime/engine/exchange_sight.c | s/node->error += mis
 parts of polygons count | runtime/engine/exchange_areas.c | s/how->tolerance, scene->input_count,/how->tolerance, tree->h.face_count,/ | runtime/check_entries
 faint pairs see all of each other | runtime/engine/exchange_sight.c | s/return clear \* share;/return clear;/ | runtime/check_entries
 faint pairs see nothing | runtime/engine/exchange_sight.c | s/return clear \* share;/return 0 * share;/ | runtime/check_entries
+points stand for all | runtime/engine/exchange_sight.c | s/node->unseen = fabs(/node->unseen = 0 * fabs(/ | runtime/check_sight_rays
 points stand for directions | runtime/engine/sight_rays.c | s/FAR = 4/FAR = 0/ | runtime/check_sight_rays
 rays are as good as equal | runtime/engine/sight_rays.c | s/square \/ (a.all \* a.all)/v * (1 - v) \/ rays/ | runtime/check_sight_rays
 few particles seem normal | runtime/engine/face_error.c | s/count >= FACE_ERROR_MANY/1/ | runtime/check_measured_error
@@ -168,6 +169,7 @@ low points are told | runtime/engine/sight_rims.c | s/LOW = 10/LOW = 0/ | runtim
 open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
 plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* s->h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/high <= s->h->flat \&\&/1 \&\&/ | runtime/check_bodies
+what lids cover is forgotten | runtime/engine/exchange.c | s/a->ways\[i\].covered = share_under_lids/(void)share_under_lids/ | runtime/check_standing
 any lid is shut | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/1/ | runtime/check_standing
 covers of both sides add up | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/cover[0] + cover[1] >= most/ | runtime/check_standing
 far covers shut | runtime/hierarchy/bodies.c | s/high > h->flat .. low < -h->flat/0/ | runtime/check_standing

@@ -193,8 +193,19 @@ static int is_asked(const struct asking *a, size_t i)
                || !(fabs(1 - a->share[i]) <= a->options->tolerance));
 }
 
+/* Of a row, the share that solids without a face there stand on. */
+static double share_under_lids(const struct exchange *x, uint32_t i)
+{
+    const struct exchange_tree *t = &x->tree;
+    double covered = 0;
+    for (uint32_t p = x->areas.first[i]; p != UINT32_MAX; p = x->areas.next[p])
+        covered += t->bodies.covered[t->h.face_element[t->h.order[p]]];
+    return covered / x->areas.area[i];
+}
+
 /* A row that lacks more than a cell of the finer grid, where the coarse one shows no way out, may
- * stand on feet smaller than the coarse one's cells. */
+ * stand on feet smaller than the coarse one's cells; feet that fall between the points of both are
+ * known where they have lids. */
 static void ask_rows(const void *asking, size_t from, size_t to)
 {
     const struct asking *a = asking;
@@ -204,6 +215,8 @@ static void ask_rows(const void *asking, size_t from, size_t to)
         a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_COARSE);
         if (is_closed(&a->ways[i]) && 1 - a->share[i] > 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE))
             a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_FINE);
+        if (is_closed(&a->ways[i]))
+            a->ways[i].covered = share_under_lids(a->exchange, (uint32_t)i);
     }
 }
 

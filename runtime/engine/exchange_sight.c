@@ -7,14 +7,15 @@
  * the piece would exchange with nothing between, which is exact, it does exchange. A piece is held
  * against a rule with points along its rim, since shades as of a sill are seen from there alone,
  * and against its four quarters; these count. Two rules may agree by chance; so what the best
- * quadratic leaves of all points' values counts as well (face_rule.h): a shade's edge is none. The
- * piece with the largest error is cut first, until the root of the sum of their squares is small
- * enough or the pieces run out: errors of pieces have either sign. Pieces with more in their shaft
- * than points can look past have 1024 rays each, and are cut too. Invariant: pieces cover the part
- * once; what is proved is not cut; none exchanges more than with nothing between. Fails: shades
- * that meet no point of a piece, nor of its rim; in scenes of few polygons the most that these may
- * be counts as error (sight_missed.h). [globally adaptive cubature: van Dooren & de
- * Ridder 1976; the rest derived here]
+ * quadratic leaves of all points' values counts as well (face_rule.h): a shade's edge is none. And
+ * so does what the points' sum is off where nothing stands between, which is known: near a foot
+ * most is exchanged where none of them is. The piece with the largest error is cut first, until
+ * the root of the sum of their squares is small enough or the pieces run out: errors of pieces
+ * have either sign. Pieces with more in their shaft than points can look past have 1024 rays each,
+ * and are cut too. Invariant: pieces cover the part once; what is proved is not cut; none
+ * exchanges more than with nothing between. Fails: shades that meet no point of a piece, nor of
+ * its rim; in scenes of few polygons the most that these may be counts as error (sight_missed.h).
+ * [globally adaptive cubature: van Dooren & de Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +40,7 @@ struct sight_node {
     double clear; /* with nothing between (m2); where its points see nothing, by these */
     double points, value, error; /* by its own points; by its quarters' (m2) */
     double rest;                 /* of what its points and those on its rim see (m2) */
+    double unseen;               /* what of `clear` its points do not stand for (m2) */
     int count, quarters; /* how many blockers, 0 when proved, MANY; index of the first quarter */
     int by_rays;         /* 1: as what stands between is too much for points to look past */
     double seen[FACE_RULE], whole[FACE_RULE]; /* of the other face, by the points inside */
@@ -272,7 +274,7 @@ static void measure(struct looking *l, int at, int all, const uint32_t *list, in
 {
     struct sight_node *node = &l->scratch->nodes[at];
     node->count = node->quarters = node->by_rays = 0;
-    node->clear = node->points = node->value = node->error = 0;
+    node->clear = node->points = node->value = node->error = node->unseen = 0;
     switch (find_between(l, &node->piece, all, list, count)) {
     case BETWEEN_ALL:
         return;
@@ -288,9 +290,9 @@ static void measure(struct looking *l, int at, int all, const uint32_t *list, in
         node->count = keep_list(l, at);
         l->between_of = at;
         const struct mean m = by_points(l, &node->piece, 0, node->seen, node->whole);
-        node->clear =
-            node->piece.area * (m.seen > 0 ? polygon_factor(&node->piece, l->to, 1) : m.whole);
+        node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
         node->points = node->value = node->clear * share(m);
+        node->unseen = fabs(node->clear - node->piece.area * m.whole);
     }
 }
 
@@ -363,11 +365,13 @@ static void divide(struct looking *l, int at)
     }
     node->quarters = l->nodes;
     node->value = 0;
+    double unseen = 0;
     for (int q = 0; q < QUARTERS; q++) {
         struct sight_node *quarter = &nodes[l->nodes++];
         make_quarter(&quarter->piece, &node->piece, q);
         measure(l, l->nodes - 1, 0, list_of(l, at), node->count);
         node->value += quarter->value;
+        unseen += quarter->unseen;
         const double of = quarter->by_rays ? quarter->error : before;
         noise += of * of;
     }
@@ -375,7 +379,8 @@ static void divide(struct looking *l, int at)
         node->error = sqrt(noise); /* few rays agree by chance, and quarters may be new */
         return;
     }
-    node->error = fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * node->rest);
+    node->error =
+        fmax(fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * node->rest), unseen);
     if (!l->scratch->limits.many && node->piece.area * SIGHT_MISSED > l->from->area)
         node->error += fmin(missed(l, at), node->value);
 }
@@ -398,7 +403,7 @@ static void compare(struct looking *l, int at, double aim)
         if (l->between_of != at)
             (void)find_between(l, &node->piece, 0, list_of(l, at), node->count);
         node->rest = rest_of(l, node, &differ);
-        node->error = SIGHT_REST * fmax(node->rest, differ);
+        node->error = fmax(SIGHT_REST * fmax(node->rest, differ), node->unseen);
         if (node->error <= aim * node->piece.area)
             return;
     }

@@ -152,9 +152,10 @@ static int is_convex(const struct shell *s)
 }
 
 /* What faces below an element cover of a lid: those that look the same way as it, and the others
- * (m2). Faces that look one way do not lie on each other (overlaps.h). */
+ * (m2). Faces that look one way do not lie on each other (overlaps.h). covered: where not NULL,
+ * [built], of the fronts of faces that is added. */
 static void add_cover(const struct hierarchy *h, uint32_t index, const struct shell_lid *lid,
-                      double cover[2])
+                      double cover[2], double *covered)
 {
     const struct element *e = &h->elements[index];
     const double(*v)[3] = (const double(*)[3])lid->corner;
@@ -169,9 +170,9 @@ static void add_cover(const struct hierarchy *h, uint32_t index, const struct sh
         if (i == lid->n || j == lid->n)
             return;
     }
-    if (!h->solid[index]) {
+    if (e->children && (covered || !h->solid[index])) {
         for (uint32_t c = 0; c < e->children; c++)
-            add_cover(h, e->child + c, lid, cover);
+            add_cover(h, e->child + c, lid, cover, covered);
         return;
     }
     const double cosine = dot3(e->normal, lid->normal);
@@ -185,7 +186,10 @@ static void add_cover(const struct hierarchy *h, uint32_t index, const struct sh
         double part[3][3];
         memcpy(part[0], v[0], sizeof part[0]);
         memcpy(part[1], v[i - 1], 2 * sizeof part[0]);
-        cover[cosine > 0] += lid_area(&over, (const double(*)[3])part, 3, lid->normal);
+        const double area = lid_area(&over, (const double(*)[3])part, 3, lid->normal);
+        cover[cosine > 0] += area;
+        if (covered && cosine < 0)
+            covered[index] += area;
     }
 }
 
@@ -196,7 +200,7 @@ static int is_shut(const struct shell *s)
         const struct shell_lid *lid = &s->lid[i];
         const double most = lid->area - s->h->flat * lid->around;
         double cover[2] = {0, 0};
-        add_cover(s->h, 0, lid, cover);
+        add_cover(s->h, 0, lid, cover, NULL);
         if (!(cover[0] >= most || cover[1] >= most))
             return 0;
     }
@@ -246,6 +250,10 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
         memcpy(lid->n, s->lid[i].normal, sizeof lid->n);
         memcpy(lid->at, s->lid[i].corner[0], sizeof lid->at);
     }
+    for (int i = 0; i < s->lids; i++) {
+        double cover[2] = {0, 0};
+        add_cover(s->h, 0, &s->lid[i], cover, b->covered);
+    }
     body->faces = (uint8_t)s->faces;
     body->corners = (uint8_t)count;
     body->lids = (uint8_t)s->lids;
@@ -275,7 +283,8 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
     struct body next = {0};
     memset(b, 0, sizeof *b);
     b->of = calloc((size_t)h->built + 1, sizeof *b->of);
-    if (!b->of)
+    b->covered = calloc((size_t)h->built + 1, sizeof *b->covered);
+    if (!b->of || !b->covered)
         return -1;
     for (uint32_t i = 0; i < h->built; i++) {
         if (b->of[i] || !h->solid[i] || !follow(&shell, mates, i) || !find_lids(&shell)
@@ -302,6 +311,7 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
 void bodies_close(struct bodies *b)
 {
     free(b->of);
+    free(b->covered);
     free(b->body);
     free(b->faces);
     free(b->corners);

@@ -86,6 +86,38 @@ START_TEST(test_squares)
 }
 END_TEST
 
+/* A low face at the end of a slot between two boxes that stand on a table, some of which it sees:
+ * points spread over the table all see nothing of it. */
+START_TEST(test_slot)
+{
+    const double slot = 0.025, deep = 0.2, tall = 0.2;
+    const double at[2][3] = {{-0.03, -deep, 0}, {slot, -deep, 0}},
+                 along[3][3] = {{0.03, 0, 0}, {0, deep, 0}, {0, 0, tall}};
+    struct scene s;
+    struct exchange_tree t;
+    struct sight_scratch scratch;
+    double error[2];
+    made_open(&s);
+    made_material(&s, 0.5, 0);
+    made_quad(&s, 0, -0.5, -0.8, 0, 1.7, 0, 0, 0, 0.9, 0);
+    made_quad(&s, 0, 0, -0.02 * (_i + 1), 0, 0, 0, tall, slot, 0, 0);
+    for (int i = 0; i < 2; i++)
+        made_box(&s, 0, at[i], along, 0);
+    open_tree(&t, &s);
+    const struct sight_limits limits = sight_limits_for(3e-4, 1000, 1000);
+    ck_assert_int_eq(sight_scratch_open(&scratch, &limits), 0);
+    const struct element *a = face_of(&t, 0), *b = face_of(&t, 1);
+    const double value = sight_pair(a, b, &t, NULL, &scratch, &error[0]) / b->area,
+                 clear = polygon_factor(b, a, 1),
+                 share = sight_rays(b, a, &t.host, 4096, &error[1]);
+    ck_assert_double_gt(share * clear, 0.01);
+    ck_assert_double_le(fabs(value - share * clear), 3 * error[1] * clear + error[0] / b->area);
+    sight_scratch_close(&scratch);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("sight rays");
@@ -93,5 +125,6 @@ int main(void)
     suite_add_tcase(suite, tests);
     tcase_add_loop_test(tests, test_foot, 0, 4);
     tcase_add_loop_test(tests, test_squares, 0, 2);
+    tcase_add_loop_test(tests, test_slot, 0, 4);
     return suite_failures(suite);
 }

@@ -3,11 +3,13 @@
  * face is cut out.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
+#include "engine/exchange.h"
 #include "engine/exchange_sight.h"
 #include "kernel/polygon_factor.h"
 #include "runtime/look_past.h"
 #include "suite.h"
 #include "terms/visibility.h"
+#include "util/oracles.h"
 
 /* A corner by its share of the three edges. */
 static void corner_of(double out[3], const double at[3], const double (*along)[3], double u,
@@ -227,6 +229,40 @@ START_TEST(test_parts)
 }
 END_TEST
 
+/* A seat on four legs in a closed room, thin and between the points where rays ask what a row
+ * lacks: what stands there is known, and is no error of the row. */
+START_TEST(test_covered)
+{
+    static const double at[2] = {0.2, 0.5}, along[3][3] = {{0.6, 0, 0}, {0, 0.6, 0}, {0, 0, 0.05}},
+                        leg[3][3] = {{0.012, 0, 0}, {0, 0.012, 0}, {0, 0, 0.5}},
+                        foot[2] = {0.2 + 0.6 * 0.0525, 0.2 + 0.6 * 0.9275};
+    static const uint32_t material[6] = {0};
+    const double seat[3] = {at[0], at[0], at[1]};
+    struct scene s;
+    struct exchange x;
+    const char *cause;
+    made_open(&s);
+    made_material(&s, 0.5, 0);
+    made_room(&s, material, 1, 1, 1);
+    made_box(&s, 0, seat, along, 0);
+    for (int i = 0; i < 4; i++) {
+        const double from[3] = {foot[i % 2], foot[i / 2], 0};
+        made_box(&s, 0, from, leg, 2);
+    }
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    exchange_set_tolerance(refiner, 1e-4);
+    const struct exchange_options options = {.tolerance = 1e-4, .threads = 1};
+    ck_assert_int_eq(exchange_open(&x, &s, refiner, &options, &cause), 0);
+    const double share = 4 * 0.012 * 0.012 / (0.6 * 0.6);
+    ck_assert_double_eq_tol(x.losses[7].covered, share, 0.1 * share); /* the seat's lower side */
+    ck_assert_double_eq(x.losses[6].covered, 0);
+    ck_assert_double_le(x.report.defect_most, 3e-4);
+    exchange_close(&x);
+    refiner_close(refiner);
+    made_close(&s);
+}
+END_TEST
+
 /* A prism of six sides, upright, two of them across x. */
 static void add_prism(struct scene *s, double x, double y, double z)
 {
@@ -291,6 +327,7 @@ int main(void)
     tcase_add_loop_test(tests, test_plates, 0, 4);
     tcase_add_test(tests, test_which);
     tcase_add_test(tests, test_parts);
+    tcase_add_test(tests, test_covered);
     tcase_add_test(tests, test_many);
     return suite_failures(suite);
 }
