@@ -117,14 +117,14 @@ paths know their scatter | runtime/engine/reference.c | s/(half\[h\].scattered +
 weak paths tell, too | runtime/engine/reference.c | s/w < REFERENCE_LEAST/w < 0 * REFERENCE_LEAST/ | runtime/check_reference
 paths go on to their noise | runtime/engine/mended_error.c | s/goal->left > 0 \&\& tally/goal->left > 0 \&\& !tally->by_paths \&\& tally/ | runtime/check_path_mending
 no link spares a ray | runtime/engine/mended_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error
-what touches may hide | runtime/engine/sight_missed.c | s/is_beyond(face, piece, to, tree->h.flat)/0/ | runtime/check_entries
+what touches may hide | runtime/engine/sight_missed.c | s/    return beyond;/    return 0;/ | runtime/check_entries
 small shades are missed | runtime/engine/exchange_sight.c | s/node->error += missed(l, at);/(void)missed;/ | runtime/check_entries
 parts of polygons count | runtime/engine/exchange_areas.c | s/how->tolerance, scene->input_count,/how->tolerance, tree->h.face_count,/ | runtime/check_entries
 faint pairs see all of each other | runtime/engine/exchange_sight.c | s/return clear \* share;/return clear;/ | runtime/check_entries
 faint pairs see nothing | runtime/engine/exchange_sight.c | s/return clear \* share;/return 0 * share;/ | runtime/check_entries
 points stand for all | runtime/engine/exchange_sight.c | s/node->unseen = fabs(/node->unseen = 0 * fabs(/ | runtime/check_sight_rays
 points stand for directions | runtime/engine/sight_rays.c | s/FAR = 4/FAR = 0/ | runtime/check_sight_rays
-rays are as good as equal | runtime/engine/sight_rays.c | s/square \/ (a.all \* a.all)/v * (1 - v) \/ rays/ | runtime/check_sight_rays
+no one more is lost | runtime/engine/face_error.c | s/noise + 1 \/ (particles \* particles)/noise/ | runtime/check_measured_error
 few particles seem normal | runtime/engine/face_error.c | s/count >= FACE_ERROR_MANY/1/ | runtime/check_measured_error
 a lone count is sure | runtime/engine/face_error.c | s/fmax(s, c->deviation\[i\]))/s)/ | runtime/check_measured_error
 sums of clusters as they come | runtime/engine/mend_clusters.c | s/^        settle_sum(m, irradiance);/        (void)settle_sum;/ | runtime/check_mended_error

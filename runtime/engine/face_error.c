@@ -485,7 +485,9 @@ static struct RadMeasure measure_l1(struct counted *c)
     return (struct RadMeasure){value / all, fmax(0, value - low) / all, (value + high) / all};
 }
 
-static struct RadMeasure measure_power(struct counted *c)
+/* Particles that lose light in one way may all have been spared: one more is allowed for, which is
+ * that share of all that is reflected. */
+static struct RadMeasure measure_power(struct counted *c, double particles)
 {
     double solved = 0;
     for (size_t i = 0; i < c->values; i++) {
@@ -493,7 +495,8 @@ static struct RadMeasure measure_power(struct counted *c)
         c->weight[i] = 1;
     }
     polygon_rows_sum(&c->rows, &solved, 1);
-    double deviation = sqrt(variance_of_sum(c)) * solved / (c->reflected * c->reflected);
+    double noise = variance_of_sum(c) / (c->reflected * c->reflected),
+           deviation = sqrt(noise + 1 / (particles * particles)) * solved / c->reflected;
     double value = solved / c->reflected - 1;
     return (struct RadMeasure){value, value - T_QUANTILE * deviation,
                                value + T_QUANTILE * deviation};
@@ -645,7 +648,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     find_errors(c);
     if (f->reflected > 0) {
         f->noise = expected_noise(c);
-        f->power = measure_power(c);
+        f->power = measure_power(c, (double)tally->particles * REPLICATES);
         f->l1 = measure_l1(c);
     }
     show_polygons(f, c, areas, h->elements[0].area);

@@ -724,6 +724,45 @@ START_TEST(test_bare)
 }
 END_TEST
 
+/* A white room with a black patch that no particle may meet: what it takes of the light, 1e-4, is
+ * not seen, and nobody is sure that it is not there. */
+START_TEST(test_spared)
+{
+    enum { TRIALS = 40 };
+    const double rho = 0.99, side = 2.45e-3, share = side * side / 6, taken = share / (1 - rho);
+    int missed = 0, sure = 0;
+    struct scene scene;
+    struct solve s;
+    made_open(&scene);
+    made_material(&scene, rho, 1);
+    made_material(&scene, 0, 0);
+    const uint32_t walls[6] = {0};
+    made_room(&scene, walls, 1, 1, 1);
+    made_quad(&scene, 1, 0.4, 0.4, 1e-4, side, 0, 0, 0, side, 0);
+    open_known(&s, &scene);
+    struct tracer t = tracer_over(&s, 1);
+    double *solved = malloc(s.hierarchy.count * sizeof *solved);
+    for (uint32_t e = 0; e < s.hierarchy.count; e++)
+        solved[e] = (1 - taken) / (1 - rho);
+    for (int i = 0; i < TRIALS; i++) {
+        struct tally y;
+        struct face_error m;
+        traced(&y, &t, (uint64_t)i, 100);
+        ck_assert_int_eq(face_error_open(&m, &s.problem, &s.hierarchy, solved, &y), 0);
+        missed += m.power.low > 1e-6 || m.power.high < -1e-6;
+        sure += m.power.high - m.power.low < taken;
+        face_error_close(&m);
+        tally_close(&y);
+    }
+    ck_assert_int_eq(sure, 0);
+    check_misses("a patch that is spared", missed, TRIALS);
+    free(solved);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* A sliver that few particles or none meet keeps what links say of it, and nobody is sure of that:
  * walls that emit 1 W/m2 and reflect half of what they receive have 2 W/m2 everywhere. */
 START_TEST(test_sliver)
@@ -784,6 +823,7 @@ int main(void)
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_streams);
     tcase_add_test(tests, test_cancel);
+    tcase_add_test(tests, test_spared);
     tcase_add_loop_test(tests, test_bare, 0, 5);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
