@@ -732,7 +732,8 @@ struct RadMeasureOptions {
 #define RAD_MEASURE_SURFACES 250000u
 #define RAD_MEASURE_POLYGON 16u
 
-enum { RAD_UNSURE_NAMED = 8 };
+/* As many as there can be: each has more than a hundredth of the area. */
+enum { RAD_UNSURE_NAMED = 100 };
 /* Errors are those of the light that is reflected, B - E: to E nothing can be wrong. */
 struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
@@ -756,8 +757,7 @@ struct RadErrorReport {
     double backs, back_share;
     uint32_t back;
     /* of radCorrect alone: polygons above a hundredth of the area that reflect, and how many of
-     * them are so dim that, mended, their light is not known to 5 % (two standard errors), with the
-     * first of these */
+     * them are so dim that, mended, their light is not known to 5 % (two standard errors): those */
     uint32_t large, unsure, unsure_named[RAD_UNSURE_NAMED];
     uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
     /* 1: `particles` are paths from polygons: where these tell polygons at a far lower price, as

@@ -110,6 +110,9 @@ double measured_seconds(const struct measured *m)
            + (m->accounted ? m->account_seconds : 0);
 }
 
+/* faces on a line of the summary */
+enum { UNSURE_SHOWN = 8 };
+
 /* Large faces that too little light meets for it to be known. */
 static void print_unsure(const struct measured *m)
 {
@@ -118,9 +121,9 @@ static void print_unsure(const struct measured *m)
         return;
     printf("dim       %u of %u large faces are too dim for their light to be known to 5 %%: face",
            (unsigned)r->unsure, (unsigned)r->large);
-    for (uint32_t i = 0; i < r->unsure && i < RAD_UNSURE_NAMED; i++)
+    for (uint32_t i = 0; i < r->unsure && i < UNSURE_SHOWN; i++)
         printf("%s %u", i > 0 ? "," : r->unsure > 1 ? "s" : "", (unsigned)r->unsure_named[i]);
-    puts(r->unsure > RAD_UNSURE_NAMED ? ", ..." : "");
+    puts(r->unsure > UNSURE_SHOWN ? ", ... (--json has all)" : "");
 }
 
 void measured_print(const struct measured *m, uint32_t polygons, int no_links)
@@ -221,7 +224,7 @@ json_t *measured_json(const struct measured *m, uint32_t polygons)
     return all;
 }
 
-/* The first of the large faces that are not known. */
+/* The large faces that are not known. */
 static json_t *unsure_json(const struct RadErrorReport *r)
 {
     json_t *faces = json_array();
