@@ -170,6 +170,8 @@ open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ 
 plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* s->h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/high <= s->h->flat \&\&/1 \&\&/ | runtime/check_bodies
 what lids cover is forgotten | runtime/engine/exchange.c | s/a->ways\[i\].covered = share_under_lids/(void)share_under_lids/ | runtime/check_standing
+floors are of columns | runtime/hierarchy/bodies.c | s/return high > h->flat;/return 0 * high > 1;/ | runtime/check_standing
+sides have edges within | runtime/hierarchy/bodies.c | s/other < f .. side\[other\] == side\[f\]/other < f/ | runtime/check_standing
 any lid is shut | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/1/ | runtime/check_standing
 covers of both sides add up | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/cover[0] + cover[1] >= most/ | runtime/check_standing
 far covers shut | runtime/hierarchy/bodies.c | s/high > h->flat .. low < -h->flat/0/ | runtime/check_standing

@@ -16,7 +16,7 @@
 #include "kernel/constants.h"
 #include "util/array.h"
 
-/* An edge that nobody is across: of a face of the shell, from its corner to the next one. */
+/* An edge that nobody of the shell is across: of a face, from its corner to the next one. */
 struct free_edge {
     int face, lid; /* -1: of none yet */
     const double *from, *to;
@@ -34,8 +34,31 @@ struct shell {
     } lid[BODY_LIDS];
 };
 
+/* How far corners reach in front of a plane, and behind. */
+static void reach(const double (*v)[3], int n, const double at[3], const double normal[3],
+                  double *high, double *low)
+{
+    for (int k = 0; k < n; k++) {
+        const double height = height3(v[k], at, normal);
+        *high = height > *high ? height : *high;
+        *low = height < *low ? height : *low;
+    }
+}
+
+/* Is the mate across an edge not of the same convex solid? Who has its front on another side or
+ * stands in front of the face is what the solid stands on. */
+static int is_free(const struct hierarchy *h, const struct element *e, int64_t mate)
+{
+    double high = 0, low = 0;
+    if (mate == NO_MATE || mate % 2)
+        return 1;
+    const struct element *other = &h->elements[mate / 2];
+    reach((const double(*)[3])other->vertex, other->vertices, e->vertex[0], e->normal, &high, &low);
+    return high > h->flat;
+}
+
 /* The faces that follow each other from one on, and what edges they leave. Returns 0 when there are
- * more than a body has, or fronts look to both sides. */
+ * more than a body has. */
 static int follow(struct shell *s, const struct mates *mates, uint32_t from)
 {
     s->faces = 1;
@@ -46,13 +69,11 @@ static int follow(struct shell *s, const struct mates *mates, uint32_t from)
         for (int i = 0; i < e->vertices; i++) {
             const int64_t mate = mates->of[s->face[at]][i];
             int k = 0;
-            if (mate == NO_MATE) {
+            if (is_free(s->h, e, mate)) {
                 s->edge[s->edges++] = (struct free_edge){
                     at, -1, e->vertex[i], e->vertex[i + 1 < e->vertices ? i + 1 : 0]};
                 continue;
             }
-            if (mate % 2)
-                return 0;
             while (k < s->faces && s->face[k] != (uint32_t)(mate / 2))
                 k++;
             if (k == BODY_FACES)
@@ -112,17 +133,6 @@ static int find_lids(struct shell *s)
         if (s->edge[i].lid < 0 && (s->lids == BODY_LIDS || !add_lid(s, &s->edge[i])))
             return 0;
     return 1;
-}
-
-/* How far corners reach in front of a plane, and behind. */
-static void reach(const double (*v)[3], int n, const double at[3], const double normal[3],
-                  double *high, double *low)
-{
-    for (int k = 0; k < n; k++) {
-        const double height = height3(v[k], at, normal);
-        *high = height > *high ? height : *high;
-        *low = height < *low ? height : *low;
-    }
 }
 
 /* Is a side flat, and does no corner lie in front of its plane, and some behind by more than
@@ -218,31 +228,58 @@ static int place_of(double (*corners)[3], int count, const double p[3])
     return at;
 }
 
-/* The faces, corners, edges and lids of a body, the last of the lists. */
+/* Sides: of each face the first that lies in one plane with it. Returns how many; side[]: which of
+ * them a face is of. */
+static int find_sides(const struct shell *s, uint32_t *first, int side[BODY_FACES])
+{
+    int sides = 0;
+    for (int f = 0; f < s->faces; f++) {
+        const struct element *e = &s->h->elements[s->face[f]];
+        int k = 0;
+        for (; k < sides; k++) {
+            const struct element *plane = &s->h->elements[first[k]];
+            double high = 0, low = 0;
+            reach((const double(*)[3])e->vertex, e->vertices, plane->vertex[0], plane->normal,
+                  &high, &low);
+            if (high <= s->h->flat && low >= -s->h->flat && dot3(e->normal, plane->normal) > 0)
+                break;
+        }
+        side[f] = k;
+        if (k == sides)
+            first[sides++] = s->face[f];
+    }
+    return sides;
+}
+
+/* The sides, corners, edges and lids of a body, the last of the lists. Between faces of one side is
+ * no edge. */
 static void measure(struct body *body, struct bodies *b, const struct shell *s,
                     const struct mates *mates)
 {
     double(*corners)[3] = b->corners + body->corner;
     struct body_edge *edges = b->edges + body->edge;
-    int count = 0, free = 0;
+    int count = 0, free = 0, side[BODY_FACES];
+    const int sides = find_sides(s, b->faces + body->face, side);
     for (int f = 0; f < s->faces; f++) {
         const struct element *e = &s->h->elements[s->face[f]];
-        b->faces[body->face + (uint32_t)f] = s->face[f];
         for (int i = 0; i < e->vertices; i++) {
             const int64_t mate = mates->of[s->face[f]][i];
-            int at[2], right = 0;
+            int at[2], other = 0, right;
+            if (is_free(s->h, e, mate)) {
+                right = sides + s->edge[free++].lid;
+            } else {
+                while (s->face[other] != (uint32_t)(mate / 2))
+                    other++;
+                if (other < f || side[other] == side[f])
+                    continue;
+                right = side[other];
+            }
             for (int end = 0; end < 2; end++) {
                 at[end] = place_of(corners, count, e->vertex[(i + end) % e->vertices]);
                 count += at[end] == count;
             }
-            if (mate == NO_MATE)
-                right = s->faces + s->edge[free++].lid;
-            else
-                while (s->face[right] != (uint32_t)(mate / 2))
-                    right++;
-            if (right > f)
-                edges[body->edges++] =
-                    (struct body_edge){(uint8_t)at[0], (uint8_t)at[1], (uint8_t)f, (uint8_t)right};
+            edges[body->edges++] = (struct body_edge){(uint8_t)at[0], (uint8_t)at[1],
+                                                      (uint8_t)side[f], (uint8_t)right};
         }
     }
     for (int i = 0; i < s->lids; i++) {
@@ -254,7 +291,7 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
         double cover[2] = {0, 0};
         add_cover(s->h, 0, &s->lid[i], cover, b->covered);
     }
-    body->faces = (uint8_t)s->faces;
+    body->faces = (uint8_t)sides;
     body->corners = (uint8_t)count;
     body->lids = (uint8_t)s->lids;
 }

@@ -8,8 +8,8 @@
 /* the most faces of a body: of more, outlines are found edge by edge */
 enum { BODY_FACES = 32, BODY_CORNERS = 4 * BODY_FACES, BODY_EDGES = BODY_CORNERS, BODY_LIDS = 4 };
 
-/* From a corner to another, by their places among the body's, and the faces at it, by theirs, lids
- * behind faces: the left one is on the left as seen from outside. */
+/* From a corner to another, by their places among the body's, and the sides at it, by theirs, lids
+ * behind those with faces: the left one is on the left as seen from outside. */
 struct body_edge {
     uint8_t from, to, left, right;
 };
@@ -19,14 +19,15 @@ struct body_lid {
     double n[3], at[3];
 };
 
-/* Where its parts begin in the lists of all bodies, and how many they are. */
+/* Where its parts begin in the lists of all bodies, and how many they are; of faces, one of each
+ * side. */
 struct body {
     uint32_t face, corner, edge, lid;
     uint8_t faces, corners, edges, lids;
 };
 
 struct bodies {
-    uint32_t *of; /* [built]: 1 more than the body that an element is a face of; 0: of none */
+    uint32_t *of;    /* [built]: 1 more than the body that an element is a face of; 0: of none */
     double *covered; /* [built]: of a face's front, by lids (m2) */
     struct body *body;
     uint32_t *faces;

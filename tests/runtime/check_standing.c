@@ -31,6 +31,16 @@ static void add_part(struct scene *s, const double at[3], const double (*along)[
     made_box(s, 0, from, (const double(*)[3])part, missing);
 }
 
+/* A quad, or its two halves. */
+static void add_patch(struct scene *s, const double (*p)[3], int halves)
+{
+    const double half[3][3] = {
+        {p[0][0], p[0][1], p[0][2]}, {p[2][0], p[2][1], p[2][2]}, {p[3][0], p[3][1], p[3][2]}};
+    made_face(s, 0, halves ? 3 : 4, p);
+    if (halves)
+        made_face(s, 0, 3, half);
+}
+
 /* A seat on four legs, which have neither tops nor bottoms; a ground for these, of one box or of
  * two triangles. */
 static void add_table(struct scene *s, const double at[3], const double (*along)[3], int plate)
@@ -229,6 +239,53 @@ START_TEST(test_parts)
 }
 END_TEST
 
+/* A column on a floor whose cells end at its foot, in quads or in triangles: its sides are four,
+ * and neither the floor around it nor what it stands on is of it, though they share its edges. The
+ * cell under it is in two strips. */
+START_TEST(test_foot)
+{
+    struct scene s;
+    struct exchange_tree t;
+    open_squares(&s);
+    for (int i = 0; i < 10; i++) {
+        const int at = i < 9 ? i : 4;
+        const double low = 0.2 + 0.2 * (at % 3) + (i == 9 ? 0.1 : 0), wide = at == 4 ? 0.1 : 0.2,
+                     y = 0.2 + 0.2 * (at / 3),
+                     cell[4][3] = {{low, y, 0.2},
+                                   {low + wide, y, 0.2},
+                                   {low + wide, y + 0.2, 0.2},
+                                   {low, y + 0.2, 0.2}};
+        add_patch(&s, cell, _i);
+    }
+    const uint32_t first = s.face_count;
+    for (int i = 0; i < 4; i++) {
+        static const double around[5][2] = {
+            {0.4, 0.4}, {0.6, 0.4}, {0.6, 0.6}, {0.4, 0.6}, {0.4, 0.4}};
+        const double *a = around[i], *b = around[i + 1],
+                     side[4][3] = {{a[0], a[1], 0.2},
+                                   {b[0], b[1], 0.2},
+                                   {b[0], b[1], 0.6},
+                                   {a[0], a[1], 0.6}};
+        add_patch(&s, side, _i);
+    }
+    const double top[4][3] = {{0.4, 0.4, 0.6}, {0.6, 0.4, 0.6}, {0.6, 0.6, 0.6}, {0.4, 0.6, 0.6}};
+    add_patch(&s, top, _i);
+    /* in one plane with a side, whose halves are not tiles of one outline then */
+    made_quad(&s, 0, 0.05, 0.4, 0.3, 0.1, 0, 0, 0, 0, 0.1);
+    open_tree(&t, &s);
+    const uint32_t of = t.bodies.of[t.h.face_element[first]]
+                            ? t.bodies.of[t.h.face_element[first]]
+                            : t.bodies.of[t.h.elements[t.h.face_element[first]].parent];
+    ck_assert_uint_ne(of, 0);
+    ck_assert_int_eq(t.bodies.body[of - 1].faces, 5);
+    ck_assert_int_eq(t.bodies.body[of - 1].lids, 1);
+    ck_assert_int_eq(t.bodies.body[of - 1].edges, 12);
+    ck_assert_int_eq(t.bodies.body[of - 1].corners, 8);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 /* A seat on four legs in a closed room, thin and between the points where rays ask what a row
  * lacks: what stands there is known, and is no error of the row. */
 START_TEST(test_covered)
@@ -327,6 +384,7 @@ int main(void)
     tcase_add_loop_test(tests, test_plates, 0, 4);
     tcase_add_test(tests, test_which);
     tcase_add_test(tests, test_parts);
+    tcase_add_loop_test(tests, test_foot, 0, 2);
     tcase_add_test(tests, test_covered);
     tcase_add_test(tests, test_many);
     return suite_failures(suite);
