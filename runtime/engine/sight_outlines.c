@@ -102,6 +102,13 @@ static void add_seen(const struct cutting *c, const uint16_t *among, int count, 
     int by = -1, n = 0;
     if (cell->n < 3)
         return;
+    if (cell->n > SIGHT_CELL_MOST) {
+        struct outline_cell half[2];
+        sight_halve(cell, half);
+        for (int k = 0; k < 2; k++)
+            add_seen(c, among, count, list, &half[k]);
+        return;
+    }
     for (int k = 0; k < count; k++) {
         if (!crosses(&c->line[among[k]], cell, by < 0 ? first : h))
             continue;

@@ -8,6 +8,7 @@
  * Invariant: with no blocker it is lambert_sum of the whole polygon.
  * [Lambert 1760; Weiler & Atherton 1977 for convex polygons]
  * SPDX-License-Identifier: MIT */
+#include <string.h>
 #include "engine/sight_pieces.h"
 #include "kernel/lambert.h"
 #include "kernel/lanes.h"
@@ -115,6 +116,18 @@ int sight_runs_through(const double from[2], double a, double b, const struct ou
     return first < square && last > 0;
 }
 
+void sight_halve(const struct outline_cell *cell, struct outline_cell half[2])
+{
+    const int middle = cell->n / 2;
+    half[0].n = half[1].n = 0;
+    for (int i = 0; i < cell->n; i++) {
+        if (i <= middle)
+            memcpy(half[0].p[half[0].n++], cell->p[i], sizeof *cell->p);
+        if (i == 0 || i >= middle)
+            memcpy(half[1].p[half[1].n++], cell->p[i], sizeof *cell->p);
+    }
+}
+
 /* Is the middle of a cell outside of a shadow? */
 static int is_outside(const struct outline *s, const struct outline_cell *cell)
 {
@@ -220,6 +233,13 @@ static void add_left(const struct shadows *all, const uint16_t *among, int count
     int flip = 0, n = 0, first = 0;
     if (cell->n < 3)
         return;
+    if (cell->n > SIGHT_CELL_MOST) {
+        struct outline_cell half[2];
+        sight_halve(cell, half);
+        for (int k = 0; k < 2; k++)
+            add_left(all, among, count, list, &half[k]);
+        return;
+    }
     box_of((const double(*)[2])cell->p, cell->n, box);
     for (int i = 0; i < count; i++) {
         const double *b = all->box[among[i]];

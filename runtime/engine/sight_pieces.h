@@ -84,6 +84,13 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
                     const struct exchange_tree *tree, const uint32_t *faces, int count,
                     double *whole);
 
+/* Of cells with more corners than this halves are cut, which has room for all that a shadow adds.
+ */
+enum { SIGHT_CELL_MOST = OUTLINE_CELL - 2 * OUTLINE_CORNERS };
+
+/* The halves of a convex cell, along the line between two of its corners. */
+void sight_halve(const struct outline_cell *cell, struct outline_cell half[2]);
+
 /* Does a shadow fall on the polygon? What only touches does not. */
 int sight_shade_meets(const struct outline *shade, const struct outline_cell *cell);
 

@@ -364,6 +364,64 @@ START_TEST(test_crowd)
 }
 END_TEST
 
+/* A disc of triangles with many corners, and a wall of triangles with a hole as round: what points
+ * see past it, or through it, is what is left of the square without the disc, or what the disc
+ * alone would be. Both ways hold a part with as many corners. */
+START_TEST(test_round)
+{
+    static struct sight_between between;
+    const int corners[] = {40, 70, 100, 160}, n = corners[_i / 2], hole = _i % 2;
+    const double size = 0.1, pi = acos(-1), at = 0.4;
+    struct scene s;
+    struct exchange_tree t;
+    uint32_t list[SIGHT_LIST];
+    struct shaft shaft;
+    struct sight sight;
+    struct polygon whole = {.n = 4};
+    open_squares(&s);
+    for (int i = 0; i < n; i++) {
+        const double a[2] = {2 * pi * i / n, 2 * pi * (i + 1) / n}, far = 20 * size,
+                     p[2][3] = {{0.5 + size * cos(a[0]), 0.5 + size * sin(a[0]), at},
+                                {0.5 + size * cos(a[1]), 0.5 + size * sin(a[1]), at}},
+                     disc[3][3] = {{0.5, 0.5, at}, {p[0][0], p[0][1], at}, {p[1][0], p[1][1], at}},
+                     wall[4][3] = {{p[0][0], p[0][1], at},
+                                   {0.5 + far * cos(a[0]), 0.5 + far * sin(a[0]), at},
+                                   {0.5 + far * cos(a[1]), 0.5 + far * sin(a[1]), at},
+                                   {p[1][0], p[1][1], at}};
+        made_face(&s, 0, hole ? 4 : 3, hole ? wall : disc);
+    }
+    open_tree(&t, &s);
+    const struct element *low = face_of(&t, 0), *high = face_of(&t, 1);
+    memcpy(whole.v, high->vertex, 4 * sizeof *whole.v);
+    ck_assert(shaft_open(&shaft, low, high, &t.host));
+    const int count = candidates_find(&t.h, &shaft, t.host.ray_offset, SIGHT_LIST, list);
+    qsort(list, (size_t)count, sizeof *list, compare_faces);
+    ck_assert_int_le(count, SIGHT_CUT);
+    sight_open(&sight, high, &whole, t.host.ray_offset);
+    ck_assert_int_eq(sight_between_find(&between, &t, &shaft, list, count, 0), BETWEEN_SOME);
+    ck_assert_int_eq(sight_between_place(&between, &t, &sight), 0);
+    for (int k = 0; k < 9; k++) {
+        const double x[3] = {0.45 + 0.05 * (k % 3), 0.45 + 0.05 * (k / 3), 0};
+        double clear, disc = 0;
+        for (int i = 0; i < n; i++) { /* which the square reaches beyond, from here */
+            const double a[2] = {2 * pi * i / n, 2 * pi * (i + 1) / n},
+                         g[2] = {0.5 + size * cos(a[0]) - x[0], 0.5 + size * sin(a[0]) - x[1]},
+                         h[2] = {0.5 + size * cos(a[1]) - x[0], 0.5 + size * sin(a[1]) - x[1]};
+            disc += lambert_edge(g[0], g[1], at, h[0], h[1], at, 0, 0, 1) / (2 * pi);
+        }
+        const double by_outlines =
+                         sight_past(&sight, x, low->normal, t.host.ray_offset, &between, &clear),
+                     by_faces = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list,
+                                             count, &clear),
+                     right = hole ? disc : clear - disc;
+        ck_assert_double_eq_tol(by_outlines, right, 2e-6); /* points start off their surface */
+        ck_assert_double_eq_tol(by_faces, right, 2e-6);
+    }
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("outlines");
@@ -372,6 +430,7 @@ int main(void)
     suite_add_tcase(suite, tests);
     tcase_add_loop_test(tests, test_both_ways, 0, 3);
     tcase_add_loop_test(tests, test_loose, 0, 3);
+    tcase_add_loop_test(tests, test_round, 0, 8);
     tcase_add_test(tests, test_hidden);
     tcase_add_test(tests, test_closed);
     tcase_add_test(tests, test_many_between);
