@@ -52,7 +52,7 @@ struct looking {
     const struct element *from, *to;
     struct sight sight;
     struct sight_scratch *scratch;
-    int nodes, heap;
+    int nodes, roots, heap;
     int cast;             /* of the nodes, by rays */
     int by_bodies;        /* 1: what is in scratch->between is in scratch->bodies */
     int shared;           /* 1: scratch->between is the pair's, and does for all pieces */
@@ -385,6 +385,15 @@ static void divide(struct looking *l, int at)
         node->error += fmin(missed(l, at), node->value);
 }
 
+/* Do all points of a piece, which differ from those on its rim by so much, see the same share, all
+ * or nothing? */
+static int tells_alike(const struct sight_node *node, double differ)
+{
+    const double rounding = 1e-6 * node->clear;
+    return (node->points <= rounding || node->points >= node->clear - rounding)
+           && differ <= rounding;
+}
+
 /* Hold a piece against its rim and its quarters; in scenes of many faces, whose entries are many,
  * not where its points tell it to its share of what is aimed at, `aim` per area, and without its
  * rim where those inside tell of more than all that is allowed. */
@@ -404,6 +413,8 @@ static void compare(struct looking *l, int at, double aim)
             (void)find_between(l, &node->piece, 0, list_of(l, at), node->count);
         node->rest = rest_of(l, node, &differ);
         node->error = fmax(SIGHT_REST * fmax(node->rest, differ), node->unseen);
+        if (at < l->roots && tells_alike(node, differ))
+            node->error = fmax(node->error, SIGHT_ALIKE * node->clear);
         if (node->error <= aim * node->piece.area)
             return;
     }
@@ -471,7 +482,8 @@ static double integrate(struct looking *l, const struct polygon *part, int all,
                                            limits->floor * least)
                                     / l->from->area
                               : -1;
-    for (int i = 0, roots = l->nodes; i < roots; i++) {
+    l->roots = l->nodes;
+    for (int i = 0; i < l->roots; i++) {
         compare(l, i, aim);
         count_in(l, i);
     }

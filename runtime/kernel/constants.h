@@ -552,6 +552,11 @@
  * quarter of it alone, .3 and .1 to .8 %); of quarters, .06 % (.3 to .6) */
 #define SIGHT_REST 0.5
 #define SIGHT_REST_QUARTERS 0.125
+/* of what a part exchanges with nothing between, in scenes of many polygons: its error, before it
+ * is held against its quarters, where all of its 15 to 25 points see the same, all or nothing, and
+ * no shaft proves it. Slits between tubes were missed: a row was off by 6e-3; chosen, a tenth of
+ * what chance might have hidden from so few */
+#define SIGHT_ALIKE 0.01
 /* of the tolerance: pieces whose error is that much are believed; see SIGHT_REST */
 #define SIGHT_BELIEVED 0.5
 /* of a side: how far within a piece points along its rim stand, so that none is in a corner that
