@@ -193,8 +193,8 @@ static int is_asked(const struct asking *a, size_t i)
                || !(fabs(1 - a->share[i]) <= a->options->tolerance));
 }
 
-/* Of a row, the share that solids without a face there stand on. */
-static double share_under_lids(const struct exchange *x, uint32_t i)
+/* Of a row, the share that convex solids stand on. */
+static double share_under_bodies(const struct exchange *x, uint32_t i)
 {
     const struct exchange_tree *t = &x->tree;
     double covered = 0;
@@ -203,9 +203,18 @@ static double share_under_lids(const struct exchange *x, uint32_t i)
     return covered / x->areas.area[i];
 }
 
+/* More ways out than one: which share goes where, rays have to tell. */
+static int is_mixed(const struct exchange_loss *way)
+{
+    return (way->leaves > 0) + (way->backs > 0) + (way->covered > 0) > 1;
+}
+
 /* A row that lacks more than a cell of the finer grid, where the coarse one shows no way out, may
- * stand on feet smaller than the coarse one's cells; feet that fall between the points of both are
- * known where they have lids. */
+ * stand on feet smaller than the coarse one's cells. What convex solids
+ * cover is known, also where it falls between the points of both; rays then mean the same within a
+ * row of cells. */
+static const double ENVIRONMENT_CELL = 1.0 / ENVIRONMENT_FINE;
+
 static void ask_rows(const void *asking, size_t from, size_t to)
 {
     const struct asking *a = asking;
@@ -213,10 +222,15 @@ static void ask_rows(const void *asking, size_t from, size_t to)
         if (!is_asked(a, i))
             continue;
         a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_COARSE);
-        if (is_closed(&a->ways[i]) && 1 - a->share[i] > 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE))
+        if (is_mixed(&a->ways[i])
+            || (is_closed(&a->ways[i])
+                && 1 - a->share[i] > 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE)))
             a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_FINE);
-        if (is_closed(&a->ways[i]))
-            a->ways[i].covered = share_under_lids(a->exchange, (uint32_t)i);
+        const double covered = share_under_bodies(a->exchange, (uint32_t)i);
+        if (covered > 1 - ENVIRONMENT_CELL) /* rays start behind what covers it */
+            a->ways[i] = (struct exchange_loss){.covered = 1};
+        else if (covered > 0 && fabs(a->ways[i].covered - covered) < ENVIRONMENT_CELL)
+            a->ways[i].covered = covered;
     }
 }
 

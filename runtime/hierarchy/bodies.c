@@ -228,6 +228,36 @@ static int place_of(double (*corners)[3], int count, const double p[3])
     return at;
 }
 
+/* That share of all faces below an element is covered. */
+static void add_share(struct bodies *b, const struct hierarchy *h, uint32_t index, double share)
+{
+    const struct element *e = &h->elements[index];
+    if (!e->children)
+        b->covered[index] += share * e->area;
+    for (uint32_t c = 0; c < e->children; c++)
+        add_share(b, h, e->child + c, share);
+}
+
+/* What a body covers of the fronts of faces, by its lids and by faces of its own, whose fronts are
+ * covered as much. */
+static void add_covered(struct bodies *b, const struct shell *s)
+{
+    for (int i = 0; i < s->lids; i++) {
+        double cover[2] = {0, 0};
+        add_cover(s->h, 0, &s->lid[i], cover, b->covered);
+    }
+    for (int i = 0; i < s->faces; i++) {
+        const struct element *e = &s->h->elements[s->face[i]];
+        struct shell_lid own = {.n = e->vertices};
+        double cover[2] = {0, 0};
+        memcpy(own.corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
+        memcpy(own.normal, e->normal, sizeof own.normal);
+        add_cover(s->h, 0, &own, cover, b->covered);
+        if (cover[0] > 0)
+            add_share(b, s->h, s->face[i], cover[0] / e->area);
+    }
+}
+
 /* Sides: of each face the first that lies in one plane with it. Returns how many; side[]: which of
  * them a face is of. */
 static int find_sides(const struct shell *s, uint32_t *first, int side[BODY_FACES])
@@ -287,10 +317,7 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
         memcpy(lid->n, s->lid[i].normal, sizeof lid->n);
         memcpy(lid->at, s->lid[i].corner[0], sizeof lid->at);
     }
-    for (int i = 0; i < s->lids; i++) {
-        double cover[2] = {0, 0};
-        add_cover(s->h, 0, &s->lid[i], cover, b->covered);
-    }
+    add_covered(b, s);
     body->faces = (uint8_t)sides;
     body->corners = (uint8_t)count;
     body->lids = (uint8_t)s->lids;

@@ -28,7 +28,7 @@ struct body {
 
 struct bodies {
     uint32_t *of;    /* [built]: 1 more than the body that an element is a face of; 0: of none */
-    double *covered; /* [built]: of a face's front, by lids (m2) */
+    double *covered; /* [built]: of a face's front, by bodies that stand on it (m2) */
     struct body *body;
     uint32_t *faces;
     double (*corners)[3];

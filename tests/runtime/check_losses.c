@@ -283,12 +283,64 @@ START_TEST(test_pillar)
 }
 END_TEST
 
+/* A box with its own bottom on the floor of the cube: what it covers is known to the digit, and no
+ * light is said to leave from under it. */
+START_TEST(test_box)
+{
+    static struct shape s;
+    const double side = 0.3, tall = 0.2, low = 0.33;
+    put_cube(&s);
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++)
+            s.position[8 + i][k] = (k < 2 ? low : 0) + (k < 2 ? side : tall) * corners[i][k];
+    for (uint32_t f = 0; f < 6; f++)
+        for (int i = 0; i < 4; i++) /* fronts outside */
+            s.corner[6 + f][i] = 8 + cube[f][3 - i];
+    s.count = 12;
+    compute(&s, RAD_CLOSURE_NONE);
+    ck_assert_double_eq_tol(s.loss[0].covered, side * side, 3e-4);
+    ck_assert_double_eq_tol(s.loss[6].covered, 1, 1e-9);
+    for (uint32_t i = 0; i < s.count; i++)
+        ck_assert(s.loss[i].sky == 0 && s.loss[i].backs == 0);
+    close_shape(&s);
+}
+END_TEST
+
+/* A floor, and on it a tube that is open above, fronts outside: what of the floor is in it sees
+ * backs, but for what leaves through its upper end. */
+START_TEST(test_tube)
+{
+    static struct shape s;
+    const double wide = 0.4, low = 0.3, x = wide, square = x * x, pi = acos(-1),
+                 end = 2 / (pi * square)
+                       * (0.5 * log((1 + square) * (1 + square) / (1 + 2 * square))
+                          + 2 * x * sqrt(1 + square) * atan(x / sqrt(1 + square))
+                          - 2 * x * atan(x)); /* C-11, a square and one as far as twice its side */
+    put_cube(&s);
+    s.count = 1;
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++)
+            s.position[8 + i][k] = k < 2 ? low + wide * corners[i][k] : corners[i][k];
+    for (uint32_t f = 2; f < 6; f++, s.count++)
+        for (int i = 0; i < 4; i++)
+            s.corner[s.count][i] = 8 + cube[f][3 - i];
+    compute(&s, RAD_CLOSURE_NONE);
+    const double backs = wide * wide * (1 - end);
+    ck_assert_double_eq_tol(s.loss[0].backs, backs, 0.02 * backs); /* told by 16,384 rays */
+    ck_assert_double_eq_tol(s.loss[0].sky, 1 - s.sum[0] - backs, 0.02 * backs);
+    ck_assert(s.loss[0].covered == 0);
+    close_shape(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("losses");
     TCase *rows = tcase_create("rows");
     tcase_add_test(rows, test_closed);
     tcase_add_test(rows, test_pillar);
+    tcase_add_test(rows, test_box);
+    tcase_add_test(rows, test_tube);
     tcase_add_test(rows, test_sky);
     tcase_add_test(rows, test_turned);
     tcase_add_test(rows, test_both);
