@@ -179,7 +179,7 @@ mixed rows have few rays | runtime/engine/exchange.c | s/(way->leaves > 0) + (wa
 bottoms cover nothing | runtime/hierarchy/bodies.c | s/add_cover(s->h, 0, .own, cover, b->covered)/(void)own/ | runtime/check_losses
 any lid is shut | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/1/ | runtime/check_standing
 covers of both sides add up | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/cover[0] + cover[1] >= most/ | runtime/check_standing
-far covers shut | runtime/hierarchy/bodies.c | s/high > h->flat .. low < -h->flat/0/ | runtime/check_standing
+far covers shut | runtime/hierarchy/bodies.c | s/ .. high > most .. low < -most)/)/ | runtime/check_standing
 parts are strangers | runtime/hierarchy/group_hierarchy.c | s/? group_fills(f, e)/? group_tiles(\&b->outliner, f, faces, e)/ | runtime/check_standing
 plates have no backs | runtime/engine/sight_bodies.c | s/0, 1};/0, 0};/ | runtime/check_standing
 great icosahedra are solid | runtime/hierarchy/solids.c | s/if (w->met\[index\] == AT_HAND)/if (0)/ | runtime/check_bodies

@@ -161,6 +161,32 @@ static int is_convex(const struct shell *s)
     return 1;
 }
 
+/* May faces below an element cover some of a lid? Not where they are elsewhere, or not in its
+ * plane: of a group's that is known but for how far its faces reach off it. */
+static int is_near(const struct hierarchy *h, const struct element *e, const struct shell_lid *lid)
+{
+    const double(*v)[3] = (const double(*)[3])lid->corner,
+          most = e->children ? 2 * h->flat : h->flat;
+    double high = 0, low = 0, box[2][3];
+    if (e->vertices) {
+        reach(v, lid->n, e->vertex[0], e->normal, &high, &low);
+        if (!(fabs(dot3(e->normal, lid->normal)) > GROUP_COSINE) || high > most || low < -most)
+            return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        double from = v[0][k], to = from;
+        box[0][k] = e->vertices ? e->centre[k] - e->radius : e->vertex[0][k];
+        box[1][k] = e->vertices ? e->centre[k] + e->radius : e->vertex[1][k];
+        for (int i = 1; i < lid->n; i++) {
+            from = v[i][k] < from ? v[i][k] : from;
+            to = v[i][k] > to ? v[i][k] : to;
+        }
+        if (from > box[1][k] + most || to < box[0][k] - most)
+            return 0;
+    }
+    return 1;
+}
+
 /* What faces below an element cover of a lid: those that look the same way as it, and the others
  * (m2). Faces that look one way do not lie on each other (overlaps.h). covered: where not NULL,
  * [built], of the fronts of faces that is added. */
@@ -169,36 +195,23 @@ static void add_cover(const struct hierarchy *h, uint32_t index, const struct sh
 {
     const struct element *e = &h->elements[index];
     const double(*v)[3] = (const double(*)[3])lid->corner;
-    double high = 0, low = 0;
     struct lid over;
-    for (int k = 0; k < 3 && !e->vertices; k++) {
-        int i = 0, j = 0;
-        while (i < lid->n && v[i][k] > e->vertex[1][k] + h->flat)
-            i++;
-        while (j < lid->n && v[j][k] < e->vertex[0][k] - h->flat)
-            j++;
-        if (i == lid->n || j == lid->n)
-            return;
-    }
+    if (!is_near(h, e, lid))
+        return;
     if (e->children && (covered || !h->solid[index])) {
         for (uint32_t c = 0; c < e->children; c++)
             add_cover(h, e->child + c, lid, cover, covered);
         return;
     }
-    const double cosine = dot3(e->normal, lid->normal);
-    if (!(fabs(cosine) > GROUP_COSINE))
-        return;
-    reach(v, lid->n, e->vertex[0], e->normal, &high, &low);
-    if (high > h->flat || low < -h->flat)
-        return;
+    const int same = dot3(e->normal, lid->normal) > 0;
     lid_of(&over, (const double(*)[3])e->vertex, e->vertices, lid->normal, h->flat);
     for (int i = 2; i < lid->n; i++) {
         double part[3][3];
         memcpy(part[0], v[0], sizeof part[0]);
         memcpy(part[1], v[i - 1], 2 * sizeof part[0]);
         const double area = lid_area(&over, (const double(*)[3])part, 3, lid->normal);
-        cover[cosine > 0] += area;
-        if (covered && cosine < 0)
+        cover[same] += area;
+        if (covered && !same)
             covered[index] += area;
     }
 }
