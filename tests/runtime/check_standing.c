@@ -366,8 +366,8 @@ START_TEST(test_many)
     ck_assert_int_eq(sight_scratch_open(&scratch, &limits), 0);
     const double value = sight_pair(low, high, &t, NULL, &scratch, &error),
                  clear = polygon_factor(low, high, 1),
-                 rays = visibility_rays(low, high, &t.host, 65536, 0);
-    ck_assert_double_eq_tol(value, clear * rays, 4 * clear * sqrt(rays * (1 - rays) / 65536));
+                 rays = visibility_rays(low, high, &t.host, SOBOL_MOST, 0);
+    ck_assert_double_eq_tol(value, clear * rays, 4 * clear * sqrt(rays * (1 - rays) / SOBOL_MOST));
     sight_scratch_close(&scratch);
     exchange_tree_close(&t);
     made_close(&s);
