@@ -203,34 +203,35 @@ static double share_under_bodies(const struct exchange *x, uint32_t i)
     return covered / x->areas.area[i];
 }
 
-/* More ways out than one: which share goes where, rays have to tell. */
-static int is_mixed(const struct exchange_loss *way)
+/* Rays say what is covered to half a row of so many points; what convex solids cover is known, also
+ * where it falls between them. */
+static void know_covered(struct exchange_loss *way, double covered, int side)
 {
-    return (way->leaves > 0) + (way->backs > 0) + (way->covered > 0) > 1;
+    if (covered > 0 && fabs(way->covered - covered) < 0.5 / side)
+        way->covered = covered;
 }
 
 /* A row that lacks more than a cell of the finer grid, where the coarse one shows no way out, may
- * stand on feet smaller than the coarse one's cells. What convex solids
- * cover is known, also where it falls between the points of both; rays then mean the same within a
- * row of cells. */
-static const double ENVIRONMENT_CELL = 1.0 / ENVIRONMENT_FINE;
-
+ * stand on feet smaller than the coarse one's cells. */
 static void ask_rows(const void *asking, size_t from, size_t to)
 {
     const struct asking *a = asking;
     for (size_t i = from; i < to; i++) {
+        struct exchange_loss *way = &a->ways[i];
         if (!is_asked(a, i))
             continue;
-        a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_COARSE);
-        if (is_mixed(&a->ways[i])
-            || (is_closed(&a->ways[i])
-                && 1 - a->share[i] > 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE)))
-            a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_FINE);
-        const double covered = share_under_bodies(a->exchange, (uint32_t)i);
-        if (covered > 1 - ENVIRONMENT_CELL) /* rays start behind what covers it */
-            a->ways[i] = (struct exchange_loss){.covered = 1};
-        else if (covered > 0 && fabs(a->ways[i].covered - covered) < ENVIRONMENT_CELL)
-            a->ways[i].covered = covered;
+        const double covered = share_under_bodies(a->exchange, (uint32_t)i),
+                     cell = 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE);
+        if (covered > 1 - cell) { /* rays would start behind what covers it */
+            *way = (struct exchange_loss){.covered = 1};
+            continue;
+        }
+        *way = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_COARSE);
+        know_covered(way, covered, ENVIRONMENT_COARSE);
+        if (!is_closed(way) || !(1 - a->share[i] > cell))
+            continue;
+        *way = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_FINE);
+        know_covered(way, covered, ENVIRONMENT_FINE);
     }
 }
 

@@ -181,9 +181,9 @@ static void add_body(struct sight_bodies *b)
     *body = (struct sight_body){b->corners, b->planes, b->edges, 0};
 }
 
-/* Where some faces are of no body, it takes so many faces for each shadow to be faster than
- * without. By the time of points in rooms of boxes and in a maze. */
-enum { WORTH = 2 };
+/* It takes so many faces for each shadow to be faster than without, unless they are few, and bodies
+ * all. By the time of points in rooms of boxes and in a maze. */
+enum { WORTH = 2, FEW = 2 };
 
 /* What the faces of a list are of, each body and each plate once, by one of its faces. Returns how
  * many, 0: too many. */
@@ -203,7 +203,7 @@ static int find_solids(const struct bodies *all, const uint32_t *list, int count
         face[found++] = list[i];
         plates += !of;
     }
-    return plates > 0 && WORTH * found > count ? 0 : found;
+    return (plates > 0 || found > FEW) && WORTH * found > count ? 0 : found;
 }
 
 int sight_bodies_place(struct sight_bodies *b, const struct exchange_tree *t, const uint32_t *list,

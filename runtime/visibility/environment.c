@@ -1,18 +1,15 @@
-/* environment.c - where the rays from a surface go: 64 from each of points that are spread evenly,
- * and not in rows, along which what stands there has its edges.
+/* environment.c - where the rays from a surface go: 64 from each point of a grid.
  *
  * The rays say whether any light leaves the scene and share what a row of view factors lacks
  * among the ways out; how much it lacks the row itself knows better.
- * [points: Fibonacci lattice; the rest derived here]
+ * [derived here]
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include "visibility/environment.h"
 #include "kernel/constants.h"
 #include "kernel/hemisphere.h"
 #include "kernel/surface_point.h"
 
 enum { DIRECTIONS = 64 };
-static const double GOLDEN = 0.6180339887498949;
 
 struct environment environment_of(const struct rays *rays, const struct element *surface, int side)
 {
@@ -23,15 +20,14 @@ struct environment environment_of(const struct rays *rays, const struct element 
     for (int i = 0; i < points; i++) {
         double p[3], d[3];
         int met[3] = {0, 0, 0};
-        surface_point(p, surface, (i + 0.5) / points, fmod((i + 0.5) * GOLDEN, 1));
+        surface_point(p, surface, (i % side + 0.5) / side, (i / side + 0.5) / side);
         for (int k = 0; k < 3; k++)
             p[k] += offset * surface->normal[k];
         for (int m = 0; m < DIRECTIONS; m++) {
             hemisphere_direction(d, &above, m, DIRECTIONS, i / (double)points);
             met[rays_first(rays, p, d, NULL, NULL)]++;
         }
-        /* under an open tube some leave */
-        if (met[RAY_MEETS_BACK] >= ENVIRONMENT_BACKS * DIRECTIONS && met[RAY_LEAVES] == 0) {
+        if (met[RAY_MEETS_BACK] >= ENVIRONMENT_BACKS * DIRECTIONS) {
             all.covered += DIRECTIONS;
             continue;
         }

@@ -14,7 +14,7 @@ struct environment {
     int covered;
 };
 
-/* There are side x side points; what is smaller than a cell of so many may be missed. */
+/* The points stand on a grid of side x side; what is smaller than a cell may be missed. */
 enum { ENVIRONMENT_COARSE = 4, ENVIRONMENT_FINE = 16 };
 
 /* Thread-safe. The result depends on the surface, the scene and `side` alone. */

@@ -306,33 +306,6 @@ START_TEST(test_box)
 }
 END_TEST
 
-/* A floor, and on it a tube that is open above, fronts outside: what of the floor is in it sees
- * backs, but for what leaves through its upper end. */
-START_TEST(test_tube)
-{
-    static struct shape s;
-    const double wide = 0.4, low = 0.3, x = wide, square = x * x, pi = acos(-1),
-                 end = 2 / (pi * square)
-                       * (0.5 * log((1 + square) * (1 + square) / (1 + 2 * square))
-                          + 2 * x * sqrt(1 + square) * atan(x / sqrt(1 + square))
-                          - 2 * x * atan(x)); /* C-11, a square and one as far as twice its side */
-    put_cube(&s);
-    s.count = 1;
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 3; k++)
-            s.position[8 + i][k] = k < 2 ? low + wide * corners[i][k] : corners[i][k];
-    for (uint32_t f = 2; f < 6; f++, s.count++)
-        for (int i = 0; i < 4; i++)
-            s.corner[s.count][i] = 8 + cube[f][3 - i];
-    compute(&s, RAD_CLOSURE_NONE);
-    const double backs = wide * wide * (1 - end);
-    ck_assert_double_eq_tol(s.loss[0].backs, backs, 0.02 * backs); /* told by 16,384 rays */
-    ck_assert_double_eq_tol(s.loss[0].sky, 1 - s.sum[0] - backs, 0.02 * backs);
-    ck_assert(s.loss[0].covered == 0);
-    close_shape(&s);
-}
-END_TEST
-
 int main(void)
 {
     Suite *suite = suite_create("losses");
@@ -340,7 +313,6 @@ int main(void)
     tcase_add_test(rows, test_closed);
     tcase_add_test(rows, test_pillar);
     tcase_add_test(rows, test_box);
-    tcase_add_test(rows, test_tube);
     tcase_add_test(rows, test_sky);
     tcase_add_test(rows, test_turned);
     tcase_add_test(rows, test_both);

@@ -18,8 +18,8 @@ of_program() { { command -v "$1" || true; } | xargs -r realpath; }
 cost_of=$(realpath "$BUILD/bin/cost_of")
 view3d=$(of_program "${VIEW3D:-View3D}")
 foam=$(of_program "${VIEW_FACTORS_GEN:-viewFactorsGen}")
-[ -n "$view3d" ] || say "View3D is not here (VIEW3D=FILE names it): its rows are left out"
-[ -n "$foam" ] || say "viewFactorsGen is not here (VIEW_FACTORS_GEN=FILE names it): its rows are left out"
+[ -n "$view3d" ] || say "View3D is not here (VIEW3D=FILE names it): it does not run"
+[ -n "$foam" ] || say "viewFactorsGen is not here (VIEW_FACTORS_GEN=FILE names it): it does not run"
 [ -z "$foam" ] || [ -n "${WM_PROJECT_DIR:-}" ] ||
     { foam='' && say "viewFactorsGen cannot run without OpenFOAM's environment (. etc/bashrc): its rows are left out"; }
 checksum() { cksum <"$1" | cut -d ' ' -f 1; }
@@ -153,11 +153,12 @@ for scene in ${SCENES_OF_STUDIES:-cube_quads cube_triangles sphere_in_box room_o
         done
     done
 done
-# rows of this command, and of the others as they are here
+# rows of this command, and of the others as they are here; of one that is not, those of before
 others=$({ [ -z "$view3d" ] || checksum "$view3d"; [ -z "$foam" ] || checksum "$foam"; } | tr '\n' ' ')
 {
     head -n 1 "$rows"
-    awk -F , -v known=" $binary $others" 'index(known, " " $4 " ")' "$rows" | sort -t , -k 1,1 -k 3,3g -k 2,2r -s
+    awk -F , -v known=" $binary $others" -v view3d="$view3d" -v foam="$foam" '
+        index(known, " " $4 " ") || (!view3d && $2 == "View3D") || (!foam && $2 == "OpenFOAM")' "$rows" | sort -t , -k 1,1 -k 3,3g -k 2,2r -s
 } >"$pages/viewfactors.csv"
 
 # ---- the page
