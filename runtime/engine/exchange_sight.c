@@ -37,7 +37,7 @@ enum { QUARTERS = 4, MANY = SIGHT_LIST + 1, RAYS = 1024, RAYS_COUNT = 16 };
 
 struct sight_node {
     struct element piece;
-    double clear; /* with nothing between (m2); where its points see nothing, by these */
+    double clear;                /* with nothing between (m2) */
     double points, value, error; /* by its own points; by its quarters' (m2) */
     double rest;                 /* of what its points and those on its rim see (m2) */
     double unseen;               /* what of `clear` its points do not stand for (m2) */
@@ -162,11 +162,12 @@ static uint32_t *list_of(const struct looking *l, int at)
     return l->scratch->lists + (size_t)at * (size_t)l->scratch->limits.list;
 }
 
-/* What stands between, for points to look past it. Returns -1 when it is too much. */
+/* What stands between, for points to look past it; by solids no more than can be cut out, which a
+ * point does that these do not tell. Returns -1 when it is too much. */
 static int place_between(struct looking *l)
 {
     struct sight_between *b = l->scratch->between;
-    l->by_bodies = /* a point that is not told cuts out all faces */
+    l->by_bodies =
         !b->bent && b->faces <= SIGHT_CUT
         && sight_bodies_place(l->scratch->bodies, l->tree, b->list, b->faces, &l->sight.raised);
     return l->by_bodies ? 0 : sight_between_place(b, l->tree, &l->sight);
@@ -217,15 +218,23 @@ static double share(struct mean m)
     return m.seen > 0 ? fmin(m.seen / m.whole, 1) : 0;
 }
 
+/* What so many rays leave of a clear view (m2); *error: the standard error of that. */
+static double seen_by_rays(const struct element *r, const struct element *s,
+                           const struct exchange_tree *t, int rays, double clear, double *error)
+{
+    const double share = sight_rays(r, s, &t->host, rays, error);
+    *error *= clear;
+    return clear * share;
+}
+
 /* A piece with more between than points can look past. */
 static void by_rays(struct looking *l, struct sight_node *node)
 {
     node->by_rays = 1;
     l->cast++;
     node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
-    const double share = sight_rays(&node->piece, l->to, &l->tree->host, RAYS, &node->error);
-    node->points = node->value = node->clear * share;
-    node->error *= node->clear;
+    node->points = node->value =
+        seen_by_rays(&node->piece, l->to, l->tree, RAYS, node->clear, &node->error);
 }
 
 /* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
@@ -326,8 +335,6 @@ static double rest_of(struct looking *l, struct sight_node *node, double *differ
     seen[inside + FACE_RULE / 2] = seen[FACE_RULE / 2];
     whole[inside + FACE_RULE / 2] = whole[FACE_RULE / 2];
     const struct mean rim = by_points(l, &node->piece, 1, seen + inside, whole + inside);
-    if (rim.seen > 0 && !(node->points > 0))
-        node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
     *differ = fabs(node->points - node->clear * share(rim));
     return fit_rest(&l->scratch->fit[node->piece.vertices - 3], node, seen, whole);
 }
@@ -571,11 +578,8 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     const double clear = fmin(r->area * polygon_factor(r, s, 1), least);
     if (count == 0)
         return clear;
-    if (is_faint(&scratch->limits, clear, least)) {
-        const double share = sight_rays(r, s, host, FAINT_RAYS, error);
-        *error *= clear;
-        return clear * share;
-    }
+    if (is_faint(&scratch->limits, clear, least))
+        return seen_by_rays(r, s, t, FAINT_RAYS, clear, error);
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
     if (!many && !among)
         sight_list_sort(own, count);

@@ -186,7 +186,7 @@ static void add_body(struct sight_bodies *b)
 enum { WORTH = 2, FEW = 2 };
 
 /* What the faces of a list are of, each body and each plate once, by one of its faces. Returns how
- * many, 0: too many. */
+ * many; -1: too many, or not worth it. */
 static int find_solids(const struct bodies *all, const uint32_t *list, int count,
                        uint32_t face[SIGHT_BODIES])
 {
@@ -197,13 +197,13 @@ static int find_solids(const struct bodies *all, const uint32_t *list, int count
         while (k < found && !(of && all->of[face[k]] == of))
             k++;
         if (k == SIGHT_BODIES)
-            return 0;
+            return -1;
         if (k < found)
             continue;
         face[found++] = list[i];
         plates += !of;
     }
-    return (plates > 0 || found > FEW) && WORTH * found > count ? 0 : found;
+    return (plates > 0 || found > FEW) && WORTH * found > count ? -1 : found;
 }
 
 int sight_bodies_place(struct sight_bodies *b, const struct exchange_tree *t, const uint32_t *list,
@@ -213,7 +213,7 @@ int sight_bodies_place(struct sight_bodies *b, const struct exchange_tree *t, co
     const int solids = find_solids(&t->bodies, list, count, face);
     b->count = b->corners = b->planes = b->edges = 0;
     b->body[0] = (struct sight_body){0};
-    if (count > 0 && solids == 0)
+    if (solids < 0)
         return 0;
     for (int i = 0; i < solids; i++) {
         const uint32_t of = t->bodies.of[face[i]];

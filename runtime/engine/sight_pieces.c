@@ -190,8 +190,7 @@ static int covers(const struct outline *s, const struct outline_cell *cell)
     return 1;
 }
 
-/* The box around points: low and high of either coordinate. */
-static void box_of(const double (*p)[2], int n, double box[4])
+void sight_box(const double (*p)[2], int n, double box[4])
 {
     for (int k = 0; k < 2; k++)
         box[k] = box[2 + k] = p[0][k];
@@ -240,7 +239,7 @@ static void add_left(const struct shadows *all, const uint16_t *among, int count
             add_left(all, among, count, list, &half[k]);
         return;
     }
-    box_of((const double(*)[2])cell->p, cell->n, box);
+    sight_box((const double(*)[2])cell->p, cell->n, box);
     for (int i = 0; i < count; i++) {
         const double *b = all->box[among[i]];
         if ((b[0] <= box[0]) & (b[2] >= box[2]) & (b[1] <= box[1]) & (b[3] >= box[3])
@@ -294,13 +293,14 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
     *whole = 0;
     if (!(eye.height > 0) || !(height > 0))
         return 0;
-    box_of((const double(*)[2])sight->cell.p, sight->cell.n, box);
+    sight_box((const double(*)[2])sight->cell.p, sight->cell.n, box);
     for (int b = 0; b < count; b++) {
         const struct element *e = &tree->h.elements[faces[b]];
         if (!outline_cast(&shadows.cast[cast], &sight->raised, from, height,
                           (const double(*)[3])e->vertex, e->vertices))
             continue;
-        box_of((const double(*)[2])shadows.cast[cast].p, shadows.cast[cast].n, shadows.box[cast]);
+        sight_box((const double(*)[2])shadows.cast[cast].p, shadows.cast[cast].n,
+                  shadows.box[cast]);
         const double size = overlap(shadows.box[cast], box);
         int at = cast;
         if (!(size > 0))

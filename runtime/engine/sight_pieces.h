@@ -91,6 +91,9 @@ enum { SIGHT_CELL_MOST = OUTLINE_CELL - 2 * OUTLINE_CORNERS };
 /* The halves of a convex cell, along the line between two of its corners. */
 void sight_halve(const struct outline_cell *cell, struct outline_cell half[2]);
 
+/* The box around points of the plane: low and high of either coordinate. */
+void sight_box(const double (*p)[2], int n, double box[4]);
+
 /* Does a shadow fall on the polygon? What only touches does not. */
 int sight_shade_meets(const struct outline *shade, const struct outline_cell *cell);
 

@@ -33,14 +33,10 @@ static void find_boxes(struct rim *rim)
     const double more = APART * rim->cast.own;
     for (int s = 0; s < rim->cast.count; s++) {
         const struct body_shadow *shadow = &rim->cast.shadow[s];
+        sight_box((const double(*)[2])shadow->p, shadow->n, rim->box[s]);
         for (int k = 0; k < 2; k++) {
-            double low = shadow->p[0][k], high = low;
-            for (int i = 1; i < shadow->n; i++) {
-                low = shadow->p[i][k] < low ? shadow->p[i][k] : low;
-                high = shadow->p[i][k] > high ? shadow->p[i][k] : high;
-            }
-            rim->box[s][k] = low - more;
-            rim->box[s][2 + k] = high + more;
+            rim->box[s][k] -= more;
+            rim->box[s][2 + k] += more;
         }
     }
 }

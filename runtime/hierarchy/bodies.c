@@ -13,6 +13,7 @@
 #include <string.h>
 #include "hierarchy/bodies.h"
 #include "hierarchy/lids.h"
+#include "hierarchy/reach.h"
 #include "kernel/constants.h"
 #include "util/array.h"
 
@@ -34,17 +35,6 @@ struct shell {
     } lid[BODY_LIDS];
 };
 
-/* How far corners reach in front of a plane, and behind. */
-static void reach(const double (*v)[3], int n, const double at[3], const double normal[3],
-                  double *high, double *low)
-{
-    for (int k = 0; k < n; k++) {
-        const double height = height3(v[k], at, normal);
-        *high = height > *high ? height : *high;
-        *low = height < *low ? height : *low;
-    }
-}
-
 /* Is the mate across an edge not of the same convex solid? Who has its front on another side or
  * stands in front of the face is what the solid stands on. */
 static int is_free(const struct hierarchy *h, const struct element *e, int64_t mate)
@@ -52,8 +42,7 @@ static int is_free(const struct hierarchy *h, const struct element *e, int64_t m
     double high = 0, low = 0;
     if (mate == NO_MATE || mate % 2)
         return 1;
-    const struct element *other = &h->elements[mate / 2];
-    reach((const double(*)[3])other->vertex, other->vertices, e->vertex[0], e->normal, &high, &low);
+    element_reach(e, &h->elements[mate / 2], &high, &low);
     return high > h->flat;
 }
 
@@ -140,10 +129,10 @@ static int find_lids(struct shell *s)
 static int supports(const struct shell *s, const double (*v)[3], int n, const double normal[3])
 {
     double high = 0, low = 0, deepest = 0;
-    reach(v, n, v[0], normal, &high, &low);
+    polygon_reach(v, (uint32_t)n, v[0], normal, &high, &low);
     for (int i = 0; i < s->faces; i++) {
         const struct element *e = &s->h->elements[s->face[i]];
-        reach((const double(*)[3])e->vertex, e->vertices, v[0], normal, &high, &deepest);
+        polygon_reach((const double(*)[3])e->vertex, e->vertices, v[0], normal, &high, &deepest);
     }
     return high <= s->h->flat && low >= -s->h->flat && deepest < -8 * s->h->flat;
 }
@@ -169,7 +158,7 @@ static int is_near(const struct hierarchy *h, const struct element *e, const str
           most = e->children ? 2 * h->flat : h->flat;
     double high = 0, low = 0, box[2][3];
     if (e->vertices) {
-        reach(v, lid->n, e->vertex[0], e->normal, &high, &low);
+        polygon_reach(v, (uint32_t)lid->n, e->vertex[0], e->normal, &high, &low);
         if (!(fabs(dot3(e->normal, lid->normal)) > GROUP_COSINE) || high > most || low < -most)
             return 0;
     }
@@ -282,8 +271,7 @@ static int find_sides(const struct shell *s, uint32_t *first, int side[BODY_FACE
         for (; k < sides; k++) {
             const struct element *plane = &s->h->elements[first[k]];
             double high = 0, low = 0;
-            reach((const double(*)[3])e->vertex, e->vertices, plane->vertex[0], plane->normal,
-                  &high, &low);
+            element_reach(plane, e, &high, &low);
             if (high <= s->h->flat && low >= -s->h->flat && dot3(e->normal, plane->normal) > 0)
                 break;
         }

@@ -210,13 +210,19 @@ static int on_side(double (*corner)[2], int n, double (*end)[2], double near)
     return 0;
 }
 
-int group_fills(const struct group_frame *f, const struct element *e)
+/* The outline's corners in its plane. Returns whether the faces have its area. */
+static int fills(const struct group_frame *f, const struct element *e, double corner[4][2])
 {
-    double corner[4][2];
     for (int c = 0; c < e->vertices; c++)
         in_frame(f, e->vertex[c], corner[c]);
     const double whole = flat_area((const double(*)[2])corner, e->vertices);
     return fabs(e->area - whole) <= GROUP_GAPS * whole;
+}
+
+int group_fills(const struct group_frame *f, const struct element *e)
+{
+    double corner[4][2];
+    return fills(f, e, corner);
 }
 
 /* Edges run both ways between neighbours: written from the smaller end, with which way in the
@@ -227,10 +233,8 @@ int group_tiles(struct outliner *o, const struct group_frame *f, struct group_fa
     double corner[4][2], near = o->flat;
     size_t count[2] = {0, 0};
     struct directed *half[2] = {o->edges, o->edges + 4 * (size_t)faces.count};
-    if (!group_fills(f, e))
+    if (!fills(f, e, corner))
         return 0;
-    for (int c = 0; c < e->vertices; c++)
-        in_frame(f, e->vertex[c], corner[c]);
     for (uint32_t i = 0; i < faces.count; i++) {
         const struct element *g = face_of(o, faces.face[i]);
         for (int c = 0; c < g->vertices; c++) {

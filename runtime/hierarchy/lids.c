@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "geometry.h"
+#include "hierarchy/reach.h"
 #include "util/array.h"
 
 enum { LINES_TRIED = 16, CORNERS = POLYGON_CORNERS };
@@ -49,11 +50,7 @@ static void reach(const struct lid *lid, uint32_t edge, const double (*vertex)[3
 {
     *low = INFINITY;
     *high = -INFINITY;
-    for (uint32_t i = 0; i < n; i++) {
-        double h = height3(vertex[i], lid->corner[edge], lid->across[edge]);
-        *low = fmin(*low, h);
-        *high = fmax(*high, h);
-    }
+    polygon_reach(vertex, n, lid->corner[edge], lid->across[edge], high, low);
 }
 
 enum lid_place lid_place(const struct lid *lid, const double (*vertex)[3], uint32_t n)

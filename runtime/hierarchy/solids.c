@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/solids.h"
+#include "hierarchy/reach.h"
 #include "kernel/hash.h"
 
 /* Of how far the solid's corners are from where coordinates begin: outlines of groups are computed;
@@ -52,27 +53,17 @@ static int follow(struct shells_walk *w, uint32_t from)
     return closed;
 }
 
-/* How far the corners of a face reach in front of a plane, and behind. */
-static void reach(const struct element *plane, const struct element *e, double *high, double *low)
-{
-    for (int k = 0; k < e->vertices; k++) {
-        const double height = height3(e->vertex[k], plane->vertex[0], plane->normal);
-        *high = height > *high ? height : *high;
-        *low = height < *low ? height : *low;
-    }
-}
-
 /* Is every face flat, and no neighbour of it in front of its plane? */
 static int bends_out(const struct shells_walk *w)
 {
     for (uint32_t f = 0; f < w->count; f++) {
         const struct element *plane = &w->h->elements[w->faces[f]];
         double high = 0, low = 0, deep = 0;
-        reach(plane, plane, &high, &low);
+        element_reach(plane, plane, &high, &low);
         if (high > w->rounds || low < -w->rounds)
             return 0;
         for (int i = 0; i < plane->vertices; i++)
-            reach(plane, &w->h->elements[w->mates->of[w->faces[f]][i] / 2], &high, &deep);
+            element_reach(plane, &w->h->elements[w->mates->of[w->faces[f]][i] / 2], &high, &deep);
         if (high > w->rounds)
             return 0;
     }
@@ -87,7 +78,7 @@ static int has_in_front(const struct shells_walk *w, const struct element *plane
     double high = 0, low = 0, most = 0;
     if (!e->children) {
         if (w->met[index] == AT_HAND)
-            reach(plane, e, &high, &low);
+            element_reach(plane, e, &high, &low);
         return high > w->rounds;
     }
     for (int k = 0; k < 3 && !e->vertices; k++) {
@@ -110,7 +101,7 @@ static int has_behind(const struct shells_walk *w, const struct element *plane, 
 {
     double high = 0, low = 0;
     for (uint32_t g = 0; g < w->count && !(low < -8 * w->h->flat); g++)
-        reach(plane, &w->h->elements[w->faces[(from + g) % w->count]], &high, &low);
+        element_reach(plane, &w->h->elements[w->faces[(from + g) % w->count]], &high, &low);
     return low < -8 * w->h->flat;
 }
 

@@ -49,7 +49,6 @@ START_TEST(test_chance)
     for (int scene = 0; scene < 40; scene++) {
         struct scene s;
         struct exchange_tree t;
-        double x[40][3];
         open_squares(&s);
         for (int body = 0; body <= scene % 8; body++) {
             double edges[3][3], at[3];
@@ -62,14 +61,7 @@ START_TEST(test_chance)
                 made_box(&s, 0, at, (const double(*)[3])edges, 0);
         }
         open_tree(&t, &s);
-        for (int i = 0; i < 40; i++) {
-            x[i][0] = chance(&state);
-            x[i][1] = chance(&state);
-            x[i][2] = 0;
-        }
-        look(&t, s.face_count, (const double(*)[3])x, 40, scene % 8 + 1, &seen);
-        exchange_tree_close(&t);
-        made_close(&s);
+        look_by_chance(&t, &s, &state, scene % 8 + 1, &seen);
     }
     ck_assert_double_gt(seen.partial, 0.5 * seen.points);
     ck_assert_double_gt(seen.hidden, 0.02 * seen.points);
@@ -213,19 +205,11 @@ START_TEST(test_turned)
                      other[3] = {at[1][0], 0.4 - 0.075 * turn, at[1][2]};
         struct scene s;
         struct exchange_tree t;
-        double x[40][3];
         open_squares(&s);
         made_box(&s, 0, at[0], along, 0);
         made_box(&s, 0, other, turned, 0);
         open_tree(&t, &s);
-        for (int i = 0; i < 40; i++) {
-            x[i][0] = chance(&state);
-            x[i][1] = chance(&state);
-            x[i][2] = 0;
-        }
-        look(&t, s.face_count, (const double(*)[3])x, 40, 2, &seen);
-        exchange_tree_close(&t);
-        made_close(&s);
+        look_by_chance(&t, &s, &state, 2, &seen);
     }
     ck_assert_double_lt(seen.most, 1e-8);
     ck_assert_double_gt(seen.untold, 0);

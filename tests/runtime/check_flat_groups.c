@@ -8,19 +8,14 @@
 #include <string.h>
 #include "engine/exchange.h"
 #include "hierarchy/flat_hull.h"
-#include "kernel/hash.h"
 #include "kernel/polygon_factor.h"
+#include "runtime/chance.h"
 #include "scene/make_scene.h"
 #include "study/closed_forms.h"
 #include "suite.h"
 #include "util/oracles.h"
 
 /* ---- outlines */
-
-static double chance(uint64_t *state)
-{
-    return (double)(hash64(++*state) >> 11) * 0x1p-53;
-}
 
 /* The area of the rectangle around the points that lies along (x, y). */
 static double around(const double (*p)[2], size_t n, double x, double y)

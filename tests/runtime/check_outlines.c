@@ -7,20 +7,15 @@
 #include <stdio.h>
 #include "engine/exchange.h"
 #include "engine/sight_outlines.h"
-#include "kernel/hash.h"
 #include "kernel/lambert.h"
 #include "kernel/shaft.h"
+#include "runtime/chance.h"
 #include "runtime/two_squares.h"
 #include "suite.h"
 #include "terms/visibility.h"
 #include "util/oracles.h"
 #include "visibility/candidates.h"
 #include "visibility/hidden.h"
-
-static double chance(uint64_t *state)
-{
-    return (double)(hash64(++*state) >> 11) * 0x1p-53;
-}
 
 /* A corner of an octahedron's face cut into m x m, on the sphere around c, bent by `dent`. */
 static void on_sphere(double p[3], const double c[3], double radius, double dent, const int at[3],

@@ -60,10 +60,7 @@ static void add_table(struct scene *s, const double at[3], const double (*along)
     double p[4][3];
     for (int i = 0; i < 4; i++)
         corner_of(p[i], at, along, i == 1 || i == 2 ? 1.1 : -0.1, i / 2 ? 1.1 : -0.1, 0);
-    const double half[3][3] = {
-        {p[0][0], p[0][1], p[0][2]}, {p[2][0], p[2][1], p[2][2]}, {p[3][0], p[3][1], p[3][2]}};
-    made_face(s, 0, 3, (const double(*)[3])p);
-    made_face(s, 0, 3, half);
+    add_patch(s, (const double(*)[3])p, 1);
 }
 
 /* Three edges at right angles, turned by chance, one of them not. */
@@ -123,7 +120,6 @@ START_TEST(test_plates)
     for (int scene = 0; scene < 40; scene++) {
         struct scene s;
         struct exchange_tree t;
-        double x[40][3];
         open_squares(&s);
         for (int i = 0; i < 4; i++) {
             double edges[3][3], at[3];
@@ -137,14 +133,7 @@ START_TEST(test_plates)
                           edges[1][0], edges[1][1], edges[1][2]);
         }
         open_tree(&t, &s);
-        for (int i = 0; i < 40; i++) {
-            x[i][0] = chance(&state);
-            x[i][1] = chance(&state);
-            x[i][2] = 0;
-        }
-        look(&t, s.face_count, (const double(*)[3])x, 40, 4, &seen);
-        exchange_tree_close(&t);
-        made_close(&s);
+        look_by_chance(&t, &s, &state, 4, &seen);
     }
     ck_assert_double_gt(seen.partial, 0.4 * seen.points);
     ck_assert_double_lt(seen.untold, 0.01 * seen.points);

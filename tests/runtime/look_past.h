@@ -6,13 +6,8 @@
 
 #include <math.h>
 #include "engine/sight_rims.h"
-#include "kernel/hash.h"
+#include "runtime/chance.h"
 #include "runtime/two_squares.h"
-
-static inline double chance(uint64_t *state)
-{
-    return (double)(hash64(++*state) >> 11) * 0x1p-53;
-}
 
 /* Three edges of a box of any size, turned by chance; right-handed. */
 static inline void chance_edges(uint64_t *state, double size, double edges[3][3])
@@ -75,6 +70,22 @@ static inline void look(const struct exchange_tree *t, uint32_t faces, const dou
     struct polygon part = {.n = 4};
     memcpy(part.v, face_of(t, 1)->vertex, 4 * sizeof *part.v);
     look_at(t, &part, faces, x, points, count, seen);
+}
+
+/* The same from points anywhere on the lower square, then the scene and its tree are closed. */
+enum { LOOK_POINTS = 40 };
+static inline void look_by_chance(struct exchange_tree *t, struct scene *s, uint64_t *state,
+                                  int count, struct seen *seen)
+{
+    double x[LOOK_POINTS][3];
+    for (int i = 0; i < LOOK_POINTS; i++) {
+        x[i][0] = chance(state);
+        x[i][1] = chance(state);
+        x[i][2] = 0;
+    }
+    look(t, s->face_count, (const double(*)[3])x, LOOK_POINTS, count, seen);
+    exchange_tree_close(t);
+    made_close(s);
 }
 
 #endif
