@@ -32,7 +32,7 @@ struct builder {
     double flat, size;             /* m */
     struct coplanar_groups planes;
     /* [face_count]: by face, the middle of its rectangle in its plane's frame, and of its
-     * polygon's; the first face of that, where its rectangle is */
+     * polygon's; the first face of that, where its rectangle in the plane at hand is */
     double (*at)[2], (*polygon_at)[2];
     uint32_t *first;
     struct rectangle {
@@ -302,9 +302,12 @@ static void make_cluster_element(struct builder *b, uint32_t index)
     element_measure_cluster(&b->h->elements[index], b->shares, &box, range);
 }
 
-/* Where the faces of a plane are in it, and the polygons that they are parts of. */
+/* Where the faces of a plane are in it, and what of their polygons is in it. */
 static void find_places(struct builder *b, const struct group_frame *f, struct face_range range)
 {
+    for (uint32_t i = range.from; i < range.to; i++)
+        b->box[b->first[b->h->order[i]]] =
+            (struct rectangle){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     for (uint32_t i = range.from; i < range.to; i++) {
         const uint32_t face = b->h->order[i];
         double low[2], high[2];
@@ -328,10 +331,8 @@ static void find_places(struct builder *b, const struct group_frame *f, struct f
 static void find_polygons(struct builder *b)
 {
     const struct face *faces = b->plain->faces;
-    for (uint32_t i = 0; i < b->plain->face_count; i++) {
+    for (uint32_t i = 0; i < b->plain->face_count; i++)
         b->first[i] = i > 0 && faces[i].input == faces[i - 1].input ? b->first[i - 1] : i;
-        b->box[i] = (struct rectangle){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    }
 }
 
 /* Element `index` becomes the cluster of the planes list[range], or the one plane's group. Orders
