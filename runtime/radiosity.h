@@ -114,7 +114,8 @@ RAD_API const char *radGetDeviceErrorMessage(RadDevice device);
 /* Where long work is. All counts rise; 0 where the phase has none. */
 struct RadProgress {
     /* "refine", "solve", "matrix" (of RAD_SOLVER_LU, which says nothing until it is done),
-     * "particles", "paths", "account", "factors"; "resumed": once, what a run before this one had
+     * "particles", "paths", "account", "factors", "again" (rows of view factors that do not add up
+     * are looked at a second time); "resumed": once, what a run before this one had
      * done (struct RadExchangeState) */
     const char *phase;
     int pass; /* from 1 */
@@ -1160,7 +1161,7 @@ struct RadExchangeOptions {
      * report is of them. 0: all */
     uint32_t rows;
     /* 1: no matrix is kept, memory is that of polygons and links: products can be asked for, rows
-     * cannot, and closure is none or rows */
+     * cannot, closure is none or rows, and rows that do not add up are not looked at again */
     int stream;
     /* bytes: what groups of polygons in clear view of each other exchange is kept as far as that
      * goes, and beyond it computed anew for each row and product, to the same bits. 0: 512 MiB */

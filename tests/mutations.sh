@@ -169,6 +169,10 @@ low points are told | runtime/engine/sight_rims.c | s/LOW = 10/LOW = 0/ | runtim
 open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
 plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* s->h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/high <= s->h->flat \&\&/1 \&\&/ | runtime/check_bodies
+rows stay off | runtime/kernel/constants.h | s/\(EXCHANGE_OFF\) *3.0$/\1 1e9/ | runtime/check_again
+legs are missed | runtime/kernel/constants.h | s/\(SIGHT_MISSED_MANY\) *5$/\1 0/ | runtime/check_again
+slabs between rows | runtime/visibility/environment.h | s/{64, 16, 1}/{16, 64, 0}/ | runtime/check_losses
+again and no wiser | runtime/engine/exchange_again.c | s/scratch, 1, /scratch, 0, / | runtime/check_again
 what lids cover is forgotten | runtime/engine/exchange.c | s/way->covered = covered;/(void)0;/ | runtime/check_standing
 floors are of columns | runtime/hierarchy/bodies.c | s/return high > h->flat;/return 0 * high > 1;/ | runtime/check_standing
 sides have edges within | runtime/hierarchy/bodies.c | s/other < f .. side\[other\] == side\[f\]/other < f/ | runtime/check_standing

@@ -31,7 +31,7 @@ static struct refiner_element element_of(const struct patch *p)
     e.cone = 1;
     e.vertices = 4;
     e.depth = (unsigned char)p->depth;
-    e.id = (unsigned)p->number;
+    e.id = p->number;
     return e;
 }
 
@@ -80,7 +80,7 @@ static void refine(struct job *job, const struct patch *receiver, const struct p
     d.host = &job->host;
     decision = refiner_bf_guarded_refine(&job->parameters, &d);
     job->decided[decision]++;
-    printf("%d %d %s", receiver->number, emitter->number, names[decision]);
+    printf("%u %u %s", receiver->number, emitter->number, names[decision]);
     if (decision == REFINER_DECISION_LINK)
         printf(" F %.17g V %.17g", d.terms.form_factor, d.terms.visibility);
     printf("\n");

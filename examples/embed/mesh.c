@@ -62,7 +62,7 @@ struct patch patch_quarter(const struct patch *p, int quarter)
         q.corner[k] += (quarter % 2 ? q.side[0][k] : 0) + (quarter / 2 ? q.side[1][k] : 0);
     }
     q.depth = p->depth + 1;
-    q.number = 16 * p->number + quarter;
+    q.number = 16 * p->number + (unsigned)quarter;
     return q;
 }
 

@@ -7,9 +7,10 @@
 /* A rectangle: one corner and its two sides; it faces the way of side[0] x side[1]. */
 struct patch {
     double corner[3], side[2][3];
-    double light; /* what it sends, W/m2 */
-    int depth;    /* how often it was split */
-    int number;   /* its place in the mesh; children of n are 4n + 1 to 4n + 4, below the room's */
+    double light;    /* what it sends, W/m2 */
+    int depth;       /* how often it was split */
+    unsigned number; /* the room's are 1 to 9, quarter q of n is 16 n + q, without what is beyond 32
+                        bits */
 };
 
 enum { ROOM_PATCHES = 9 };

@@ -100,6 +100,10 @@ struct RadSolutionObject {
 int api_fail(RadDevice device, enum RadError code, const char *format, ...) MESSAGE_LIKE(3, 4);
 void api_warn(RadDevice device, const char *format, ...) MESSAGE_LIKE(2, 3);
 
+/* Is there what `what` says a call needs from its caller, a place for its result, say? Returns 0,
+ * or -1 with the device told. */
+int api_needs(RadDevice device, const void *given, const char *what);
+
 /* Calls the progress function, if there is one. Returns what it says. */
 int api_progress(RadDevice device, const struct RadProgress *progress);
 

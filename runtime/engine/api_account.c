@@ -48,9 +48,11 @@ int radAccountErrors(RadSolution solution, const struct RadAccountOptions *given
     static const struct RadAccountOptions defaults;
     const struct RadAccountOptions *o = given ? given : &defaults;
     double start = seconds();
-    if (!solution || !report)
+    if (!solution)
         return -1;
     RadDevice device = solution->scene->device;
+    if (api_needs(device, report, "radAccountErrors needs a place") < 0)
+        return -1;
     struct solve *s = &solution->solve;
     if (api_alone(device, "radAccountErrors") < 0)
         return -1;

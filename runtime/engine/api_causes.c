@@ -10,7 +10,8 @@ int radFindCauses(RadSolution solution, const struct RadCausesOptions *given,
     static const struct RadCausesOptions defaults;
     const struct RadCausesOptions *o = given ? given : &defaults;
     double start = seconds();
-    if (!report || api_not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0
+        || api_needs(solution->scene->device, report, "radFindCauses needs a place") < 0)
         return -1;
     RadDevice device = solution->scene->device;
     struct solve *s = &solution->solve;

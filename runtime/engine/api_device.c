@@ -165,6 +165,11 @@ int api_fail(RadDevice device, enum RadError code, const char *format, ...)
     return -1;
 }
 
+int api_needs(RadDevice device, const void *given, const char *what)
+{
+    return given ? 0 : api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "%s, which is NULL", what);
+}
+
 void api_warn(RadDevice device, const char *format, ...)
 {
     va_list list;

@@ -151,7 +151,8 @@ double radGetExchangeRow(RadExchange x, uint32_t i, double *row)
 
 int radGetExchangeLoss(RadExchange x, uint32_t i, struct RadExchangeLoss *loss)
 {
-    if (!x || !loss || check_row(x, i) < 0)
+    if (!x || api_needs(x->scene->device, loss, "radGetExchangeLoss needs a place") < 0
+        || check_row(x, i) < 0)
         return -1;
     const struct exchange_loss *l = &x->exchange.losses[i];
     *loss = (struct RadExchangeLoss){l->leaves, l->backs, l->covered};

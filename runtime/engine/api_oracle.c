@@ -233,7 +233,10 @@ RadOracle radLoadOracleReplaced(RadDevice device, const char *path, const char *
 {
     if (!device)
         return NULL;
-    if (path && count >= 0 && (count == 0 || replacements))
+    int listed = count >= 0 && (count == 0 || replacements);
+    for (int i = 0; listed && i < count; i++)
+        listed = replacements[i] != NULL;
+    if (path && listed)
         return load(device, path, text, NULL, release, replacements, count);
     api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle needs a name, and replacements a list");
     return NULL;
@@ -395,7 +398,8 @@ int radCountOracle(RadOracle oracle)
 
 int radGetOracleStatistics(RadOracle oracle, struct RadStatistics *statistics)
 {
-    if (!oracle || !statistics)
+    if (!oracle
+        || api_needs(oracle->device, statistics, "radGetOracleStatistics needs a place") < 0)
         return -1;
     statistics_free(&oracle->counted);
     if (!oracle->counting)

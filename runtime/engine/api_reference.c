@@ -158,7 +158,8 @@ int radGetReferenceValues(RadReference r, enum RadMethod method, uint32_t band, 
 
 int radMeasureErrorBy(RadSolution solution, RadReference r, struct RadErrorReport *report)
 {
-    if (not_dead(r) < 0 || api_not_dead(solution) < 0)
+    if (not_dead(r) < 0 || api_not_dead(solution) < 0
+        || api_needs(r->scene->device, report, "radMeasureErrorBy needs a place") < 0)
         return -1;
     RadDevice device = solution->scene->device;
     const struct tally *tally = &r->reference.tally;
@@ -188,7 +189,8 @@ int radMeasureErrorBy(RadSolution solution, RadReference r, struct RadErrorRepor
 
 int radGetReferenceReport(RadReference r, struct RadReferenceReport *report)
 {
-    if (not_dead(r) < 0)
+    if (not_dead(r) < 0
+        || api_needs(r->scene->device, report, "radGetReferenceReport needs a place") < 0)
         return -1;
     const struct reference *x = &r->reference;
     struct reference_summary s;

@@ -88,6 +88,10 @@ int radSetSceneSharedPolygons(RadScene scene, const struct RadPolygons *polygons
                         "polygons of %u corners: RadPolygons.size must be 3 or more, or "
                         "RadPolygons.sizes be given",
                         (unsigned)polygons->size);
+    if (polygons->turned != RAD_TURNED_IGNORE && polygons->turned != RAD_TURNED_FIND
+        && polygons->turned != RAD_TURNED_FLIP)
+        return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadPolygons.turned takes one of enum RadTurned");
     scene->polygons = *polygons;
     scene->polygons_set = 1;
     return 0;
@@ -149,7 +153,7 @@ int radCommitScene(RadScene scene)
 
 int radGetSceneReport(RadScene scene, struct RadSceneReport *report)
 {
-    if (!scene || !report)
+    if (!scene || api_needs(scene->device, report, "radGetSceneReport needs a place") < 0)
         return -1;
     if (!scene->committed)
         return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION,

@@ -5,7 +5,8 @@
 int radGetSolutionState(RadSolution solution, struct RadStatePart part[RAD_STATE_PARTS])
 {
     const char *cause;
-    if (!part || api_not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0
+        || api_needs(solution->scene->device, part, "radGetSolutionState needs a place") < 0)
         return -1;
     RadDevice device = solution->scene->device;
     if (!solution->solve.refinement.hierarchy || solution->done)
@@ -21,7 +22,8 @@ int radSetSolutionState(RadSolution solution, const struct RadStatePart part[RAD
 {
     const char *cause;
     int refused;
-    if (!part || api_not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0
+        || api_needs(solution->scene->device, part, "radSetSolutionState needs a state") < 0)
         return -1;
     RadDevice device = solution->scene->device;
     if (solution->solve.refinement.hierarchy)

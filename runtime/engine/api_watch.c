@@ -60,7 +60,12 @@ int radTraceSolution(RadSolution solution, RadTraceFunction function, void *user
 int radExplain(RadSolution solution, RadOracle oracle, const struct discussion *before,
                struct RadExplanation *explanation)
 {
-    if (api_not_dead(solution) < 0 || !oracle || !before || !explanation || follow(oracle) < 0)
+    if (api_not_dead(solution) < 0)
+        return -1;
+    RadDevice device = solution->scene->device;
+    if (api_needs(device, oracle, "radExplain needs an oracle") < 0
+        || api_needs(device, before, "radExplain needs a discussion") < 0
+        || api_needs(device, explanation, "radExplain needs a place") < 0 || follow(oracle) < 0)
         return -1;
     if (explain(&oracle->explained, oracle->refiner, before,
                 rays_host(solution->solve.problem.rays))
@@ -94,8 +99,9 @@ static int check_element(RadSolution solution, uint32_t element)
 
 int radGetElementName(RadSolution solution, uint32_t element, char name[RAD_NAME])
 {
-    if (api_not_dead(solution) < 0 || !name || check_element(solution, element) < 0
-        || number_parts(solution) < 0)
+    if (api_not_dead(solution) < 0
+        || api_needs(solution->scene->device, name, "radGetElementName needs a place") < 0
+        || check_element(solution, element) < 0 || number_parts(solution) < 0)
         return -1;
     if (element_name(name, RAD_NAME, &solution->solve.hierarchy, solution->part, element) == 0)
         return 0;
@@ -106,7 +112,10 @@ int radGetElementName(RadSolution solution, uint32_t element, char name[RAD_NAME
 int radFindElement(RadSolution solution, const char *name, uint32_t *element)
 {
     char cause[RAD_NAME + 160];
-    if (api_not_dead(solution) < 0 || !name || !element || number_parts(solution) < 0)
+    if (api_not_dead(solution) < 0
+        || api_needs(solution->scene->device, name, "radFindElement needs a name") < 0
+        || api_needs(solution->scene->device, element, "radFindElement needs a place") < 0
+        || number_parts(solution) < 0)
         return -1;
     if (element_find(element, &solution->solve.hierarchy, solution->part, name, cause, sizeof cause)
         == 0)
@@ -116,7 +125,9 @@ int radFindElement(RadSolution solution, const char *name, uint32_t *element)
 
 int radFindFaceAt(RadSolution solution, const double point[3], uint32_t *element)
 {
-    if (api_not_dead(solution) < 0 || !point || !element)
+    if (api_not_dead(solution) < 0
+        || api_needs(solution->scene->device, point, "radFindFaceAt needs a point") < 0
+        || api_needs(solution->scene->device, element, "radFindFaceAt needs a place") < 0)
         return -1;
     const struct hierarchy *h = &solution->solve.hierarchy;
     double nearest = INFINITY;

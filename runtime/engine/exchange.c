@@ -5,7 +5,9 @@
  * two sides, or cut into parts, is one row, a mean over its parts. A row lacks something where
  * light leaves the scene or meets a black back, or by error; which of these, rays say
  * (visibility/environment.h). Rows that sum to 1 within the tolerance need none, unless closure
- * must know: what they lack is less than what they may be wrong by.
+ * must know: what they lack is less than what they may be wrong by. A row that exceeds 1, or lacks
+ * what no ray finds, by more than chance explains has an entry that the rules of points misjudged:
+ * all of its entries are looked at again (exchange_again.h).
  * Invariant: of a row that rays find a way out for, the sum and its losses make 1, unless the sum
  * is more.
  * SPDX-License-Identifier: MIT */
@@ -13,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange.h"
+#include "engine/exchange_again.h"
 #include "engine/exchange_product.h"
 #include "kernel/constants.h"
 #include "util/clock.h"
@@ -55,7 +58,7 @@ static int tell_share(void *context, double share)
 {
     struct watcher *w = context;
     w->exchange->share = share;
-    return tell(w, "factors");
+    return tell(w, w->exchange->phase);
 }
 
 static int watch_round(void *context, const struct refinement *refinement)
@@ -91,13 +94,14 @@ static int refine(struct exchange *x, const struct refiner *refiner, struct watc
 }
 
 /* Where the row's light goes that meets no front: shares of all rays. */
-static struct exchange_loss ask_row(const struct exchange *x, uint32_t i, int side)
+static struct exchange_loss ask_row(const struct exchange *x, uint32_t i,
+                                    struct environment_grid grid)
 {
     const struct exchange_areas *m = &x->areas;
     double leaves = 0, backs = 0, covered = 0;
     for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p]) {
         const struct element *e = exchange_tree_face(&x->tree, p);
-        struct environment f = environment_of(x->tree.rays, e, side);
+        struct environment f = environment_of(x->tree.rays, e, grid);
         double ray = e->area / (f.fronts + f.leaves + f.backs + f.covered);
         leaves += ray * f.leaves;
         backs += ray * f.backs;
@@ -182,15 +186,21 @@ struct asking {
     const struct exchange *exchange;
     const struct exchange_options *options;
     const double *share;        /* [input] */
+    const double *before;       /* [input]: by which they were asked already; NULL: they were not */
     struct exchange_loss *ways; /* [input] */
 };
 
-/* Must rays say where the light of row i goes? */
+/* Must rays say where the light goes of a row of that sum? */
+static int is_open_to_ask(const struct asking *a, double share)
+{
+    return a->options->closure != CLOSURE_NONE || !(fabs(1 - share) <= a->options->tolerance);
+}
+
+/* And have they not said so yet? */
 static int is_asked(const struct asking *a, size_t i)
 {
-    return a->exchange->areas.area[i] > 0
-           && (a->options->closure != CLOSURE_NONE
-               || !(fabs(1 - a->share[i]) <= a->options->tolerance));
+    return a->exchange->areas.area[i] > 0 && is_open_to_ask(a, a->share[i])
+           && !(a->before && is_open_to_ask(a, a->before[i]));
 }
 
 /* Of a row, the share that convex solids stand on. */
@@ -211,8 +221,8 @@ static void know_covered(struct exchange_loss *way, double covered, int side)
         way->covered = covered;
 }
 
-/* A row that lacks more than a cell of the finer grid, where the coarse one shows no way out, may
- * stand on feet smaller than the coarse one's cells. */
+/* A row that lacks more than chance explains, and than one point stands for, where few points show
+ * no way out, may have something small stand on it. */
 static void ask_rows(const void *asking, size_t from, size_t to)
 {
     const struct asking *a = asking;
@@ -221,17 +231,18 @@ static void ask_rows(const void *asking, size_t from, size_t to)
         if (!is_asked(a, i))
             continue;
         const double covered = share_under_bodies(a->exchange, (uint32_t)i),
-                     cell = 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE);
+                     cell = 1.0 / (environment_fine.side * environment_fine.side);
         if (covered > 1 - cell) { /* rays would start behind what covers it */
             *way = (struct exchange_loss){.covered = 1};
             continue;
         }
-        *way = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_COARSE);
-        know_covered(way, covered, ENVIRONMENT_COARSE);
-        if (!is_closed(way) || !(1 - a->share[i] > cell))
+        *way = ask_row(a->exchange, (uint32_t)i, environment_coarse);
+        know_covered(way, covered, environment_coarse.side);
+        if (!is_closed(way)
+            || !(1 - a->share[i] > fmax(cell, EXCHANGE_OFF * a->options->tolerance)))
             continue;
-        *way = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_FINE);
-        know_covered(way, covered, ENVIRONMENT_FINE);
+        *way = ask_row(a->exchange, (uint32_t)i, environment_fine);
+        know_covered(way, covered, environment_fine.side);
     }
 }
 
@@ -248,35 +259,82 @@ static int build_rays(struct exchange *x, const struct asking *a)
     return ranks_any(x->ranks, failed) ? -1 : 0;
 }
 
-/* Row sums, their account, and closure. */
-static int close_rows(struct exchange *x, const struct exchange_options *o)
+/* Ask those rows that must be. Returns 0, or -1 on all ranks. */
+static int ask(struct exchange *x, const struct asking *a)
+{
+    if (build_rays(x, a) < 0)
+        return -1;
+    ranks_loop_run(x->ranks, RANKS_VALUES, x->threads, x->areas.rows, 16, ask_rows, a, x->losses,
+                   sizeof *x->losses);
+    return 0;
+}
+
+/* What rows sum to, and shares of their areas; 1 of rows that nobody asks for. Returns 0 or -1. */
+static int add_rows(const struct exchange *x, double *sums, double *share)
 {
     const struct exchange_areas *m = &x->areas;
-    double *share = malloc((m->inputs + 1) * sizeof *share),
-           *sums = malloc((m->inputs + 1) * sizeof *sums);
-    unsigned char *closed = calloc(m->inputs + 1, 1);
-    int status = -1;
-    x->losses = calloc(m->inputs + 1, sizeof *x->losses);
-    if (share && sums && x->losses && closed && exchange_sums(m, x->threads, NULL, sums) == 0) {
-        for (uint32_t i = 0; i < m->inputs; i++) {
-            if (i >= m->rows) /* nobody asks for it */
-                sums[i] = m->area[i];
-            share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
-        }
-        const struct asking a = {x, o, share, x->losses};
-        status = build_rays(x, &a);
-        if (status == 0) {
-            ranks_loop_run(x->ranks, RANKS_VALUES, o->threads, m->rows, 16, ask_rows, &a, x->losses,
-                           sizeof *x->losses);
-            account(x, share, closed);
-            status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, closed);
-        }
-        if (status == 0)
-            status = follow_closure(x, sums);
+    if (exchange_sums(m, x->threads, NULL, sums) < 0)
+        return -1;
+    for (uint32_t i = 0; i < m->inputs; i++) {
+        if (i >= m->rows)
+            sums[i] = m->area[i];
+        share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
+    }
+    return 0;
+}
+
+/* Is row i off by more than chance explains? What a row lacks whose light goes elsewhere, too, is
+ * not known so well. */
+static int is_off(const struct asking *a, uint32_t i)
+{
+    const double most = EXCHANGE_OFF * a->options->tolerance, lacks = 1 - a->share[i];
+    return -lacks > most || (is_closed(&a->ways[i]) && lacks > most);
+}
+
+/* The rows that are: off[inputs]. Returns their number. */
+static uint32_t find_off(const struct asking *a, unsigned char *off)
+{
+    const struct exchange_areas *m = &a->exchange->areas;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < m->rows; i++)
+        count += off[i] = m->area[i] > 0 && is_off(a, i);
+    return count;
+}
+
+/* Row sums, where the light goes that they lack, a second look at rows that are off, their account,
+ * and closure. */
+static int close_rows(struct exchange *x, const struct exchange_options *o,
+                      const struct exchange_aim *how)
+{
+    const struct exchange_areas *m = &x->areas;
+    const size_t size = (m->inputs + (size_t)1) * sizeof(double);
+    double *share = malloc(size), *before = malloc(size), *sums = malloc(size);
+    unsigned char *mark = calloc(m->inputs + (size_t)1, 1);
+    x->losses = calloc(m->inputs + (size_t)1, sizeof *x->losses);
+    struct asking asking = {.exchange = x, .options = o, .share = share, .ways = x->losses};
+    int status = share && before && sums && mark && x->losses ? 0 : -1;
+    if (status == 0)
+        status = add_rows(x, sums, share) < 0 || ask(x, &asking) < 0 ? -1 : 0;
+    if (status == 0 && !o->stream && find_off(&asking, mark)) {
+        memcpy(before, share, size);
+        x->phase = "again";
+        asking.before = before;
+        status = exchange_again(&x->areas, &x->refinement, mark, how) < 0
+                         || add_rows(x, sums, share) < 0 || ask(x, &asking) < 0
+                     ? -1
+                     : 0;
+    }
+    if (status == 0) {
+        account(x, share, mark);
+        status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, mark) < 0
+                         || follow_closure(x, sums) < 0
+                     ? -1
+                     : 0;
     }
     free(share);
+    free(before);
     free(sums);
-    free(closed);
+    free(mark);
     return status;
 }
 
@@ -301,10 +359,12 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     if ((!x->resumed && tell(&watcher, "factors") != 0)
         || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, &how) < 0)
         return -1;
+    if (close_rows(x, o, &how) < 0)
+        return -1;
     if (!how.stream)
         refinement_close(&x->refinement);
     x->report.entry_error = exchange_areas_error(&x->areas);
-    if (x->report.entry_error < 0 || close_rows(x, o) < 0)
+    if (x->report.entry_error < 0)
         return -1;
     x->report.seconds.fill = seconds() - middle;
     x->report.links = x->areas.link_count;
@@ -320,7 +380,8 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
 int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
                   const struct exchange_options *options, const char **cause)
 {
-    *x = (struct exchange){.threads = options->threads, .ranks = options->ranks};
+    *x =
+        (struct exchange){.phase = "factors", .threads = options->threads, .ranks = options->ranks};
     if (exchange_tree_open(&x->tree, scene->faces, scene->face_count, options->threads, cause) < 0)
         return -1;
     if (compute(x, scene, refiner, options) == 0)

@@ -17,7 +17,8 @@ struct exchange_options {
     enum closure closure;
     int threads;
     /* Told from the calling thread after each round of refinement ("refine"), and before values are
-     * computed and while they are ("factors", exchange.share of them done); once instead
+     * computed and while they are ("factors", exchange.share of them done; "again", those of rows
+     * that were off); once instead
      * ("resumed") where the work of a run before stands. Anything but 0 cancels. NULL: nobody is.
      */
     int (*progress)(void *context, const struct exchange *exchange, const char *phase);
@@ -65,6 +66,7 @@ struct exchange {
     struct exchange_loss *losses; /* [areas.inputs], after closure */
     struct exchange_report report;
     struct exchange_state state; /* while it is computed */
+    const char *phase;           /* while values are computed */
     double share;                /* done of the phase; 0: not known */
     int cancelled, threads;
     struct ranks *ranks; /* borrowed */

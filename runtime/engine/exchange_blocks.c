@@ -40,7 +40,7 @@ static double link_factor(const struct exchange_pair *pair, const struct link *l
     return polygon_factor(r, s, 1);
 }
 
-static int is_proved(const struct link *link)
+int exchange_link_proved(const struct link *link)
 {
     return link->levels >> 4 == VISIBILITY_EXACT && link->visibility == LINK_VISIBLE;
 }
@@ -49,7 +49,7 @@ int exchange_link_clear(const struct exchange_tree *tree, const struct link *lin
 {
     const struct element *r = &tree->h.elements[link->receiver],
                          *s = &tree->h.elements[link->emitter];
-    return is_proved(link) && (r->group || s->group) && !r->depth && !s->depth;
+    return exchange_link_proved(link) && (r->group || s->group) && !r->depth && !s->depth;
 }
 
 double exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
@@ -57,14 +57,14 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
-    if (is_proved(link) && !r->group && !s->group) {
+    if (exchange_link_proved(link) && !r->group && !s->group) {
         double e = r->area * link_factor(pair, link), least = fmin(r->area, s->area);
         *out = e < least ? e : least;
         return 0;
     }
     if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */
         return halves_block(p, pair, scratch->horizon, &scratch->sight, out);
-    if (is_proved(link)) {
+    if (exchange_link_proved(link)) {
         clear_block(p, pair, scratch->sight.limits.tolerance, out);
         return 0;
     }

@@ -26,6 +26,9 @@ void exchange_scratch_close(struct exchange_scratch *scratch);
 double exchange_block_fill(const struct exchange_faces *faces, const struct exchange_pair *pair,
                            const struct link *link, struct exchange_scratch *scratch, double *out);
 
+/* Is it proved that nothing stands between the two elements of the link? */
+int exchange_link_proved(const struct link *link);
+
 /* Is the link one of groups in a clear view of each other? A block of it is made anew in next to no
  * time, and so is one of its lines (exchange_clear.h). */
 int exchange_link_clear(const struct exchange_tree *tree, const struct link *link);

@@ -164,7 +164,7 @@ static void fill_halves(struct halving *h, const struct half *r, const struct ha
     if (count_of(r) == 1 && count_of(s) == 1) {
         double error;
         *place_of(h, r->range.from, s->range.from) =
-            sight_pair(&from, &to, t, among, h->scratch, &error);
+            sight_pair(&from, &to, t, among, h->scratch, 0, &error);
         h->most = fmax(h->most, error / fmin(from.area, to.area));
         return;
     }

@@ -403,7 +403,7 @@ static void fill_row(struct looking_past *l, const struct element *e, struct sig
         if (told)
             error = measure(l, &rules, &scratch->fit[e->vertices - 3], &z->cell[c], value);
         if (!(error <= SIGHT_BELIEVED * limits->tolerance * fmax(*value, limits->floor * least)))
-            *value = fmin(sight_pair(e, face, l->tree, l->list, scratch, &error), all);
+            *value = fmin(sight_pair(e, face, l->tree, l->list, scratch, 0, &error), all);
         *most = fmax(*most, error / least);
     }
 }

@@ -327,9 +327,9 @@ double shadow_block(const struct exchange_pair *pair, const struct blockers *lis
                 seen_share(sight, &screen.cells[j], &points, (swap ? s : r)->normal, &screen.frame);
             error = all * doubt_of(sight, screen.cells[j].whole.area);
             if (!sight_enough(limits, error, *value, least))
-                *value = fmin(
-                    sight_pair(e, exchange_tree_face(t, onto.from + j), t, &among, looking, &error),
-                    all);
+                *value = fmin(sight_pair(e, exchange_tree_face(t, onto.from + j), t, &among,
+                                         looking, 0, &error),
+                              all);
             most = fmax(most, error / least);
         }
     }

@@ -13,8 +13,9 @@
  * the root of the sum of their squares is small enough or the pieces run out: errors of pieces
  * have either sign. Pieces with more in their shaft than points can look past have 1024 rays each,
  * and are cut too. Invariant: pieces cover the part once; what is proved is not cut; none
- * exchanges more than with nothing between. Fails: shades that meet no point of a piece, nor of
- * its rim; in scenes of few polygons the most that these may be counts as error (sight_missed.h).
+ * exchanges more than with nothing between. What shades may be that meet no point counts as error
+ * at the most (sight_missed.h), down to small pieces. Fails: light through gaps between shades that
+ * meets no point of a piece, nor of its rim.
  * [globally adaptive cubature: van Dooren & de Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -52,6 +53,7 @@ struct looking {
     const struct element *from, *to;
     struct sight sight;
     struct sight_scratch *scratch;
+    int believes; /* 1: in rules that tell enough */
     int nodes, roots, heap;
     int cast;             /* of the nodes, by rays */
     int by_bodies;        /* 1: what is in scratch->between is in scratch->bodies */
@@ -345,18 +347,22 @@ static int has_room(const struct looking *l, int pieces)
     return l->nodes + l->cast * (RAYS_COUNT - 1) + pieces <= l->scratch->limits.pieces;
 }
 
-/* At most what is missed of a piece's shades, where neither its own points nor its quarters' see
- * them (m2). */
+/* At most what is missed of a piece's shades, where neither its own points nor, if there are any,
+ * its quarters' see them; no more than it exchanges (m2). 0 of small pieces. */
 static double missed(const struct looking *l, int at)
 {
     const struct sight_node *node = &l->scratch->nodes[at],
                             *quarters = &l->scratch->nodes[node->quarters];
+    const int most = l->believes ? SIGHT_MISSED_MANY : SIGHT_MISSED;
     struct sight_eyes eyes;
+    if (!(node->piece.area * most > l->from->area))
+        return 0;
     sight_eyes_open(&eyes, &l->sight, l->tree->host.ray_offset);
     sight_eyes_add(&eyes, &node->piece);
-    for (int q = 0; q < QUARTERS; q++)
+    for (int q = 0; q < QUARTERS && node->quarters; q++)
         sight_eyes_add(&eyes, &quarters[q].piece);
-    return sight_missed(&eyes, &node->piece, l->to, l->tree, list_of(l, at), node->count);
+    return fmin(sight_missed(&eyes, &node->piece, l->to, l->tree, list_of(l, at), node->count),
+                node->value);
 }
 
 /* Hold a piece against its quarters, which count from now on. */
@@ -388,8 +394,7 @@ static void divide(struct looking *l, int at)
     }
     node->error =
         fmax(fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * node->rest), unseen);
-    if (!l->scratch->limits.many && node->piece.area * SIGHT_MISSED > l->from->area)
-        node->error += fmin(missed(l, at), node->value);
+    node->error += missed(l, at);
 }
 
 /* Do all points of a piece, which differ from those on its rim by so much, see the same share, all
@@ -411,7 +416,7 @@ static void compare(struct looking *l, int at, double aim)
     int known = 0;
     if (node->count == 0)
         return;
-    if (l->scratch->limits.many && !node->by_rays && node->piece.vertices == 4) {
+    if (l->believes && !node->by_rays && node->piece.vertices == 4) {
         node->rest = fit_rest(&l->scratch->inside, node, node->seen, node->whole);
         known = SIGHT_BELIEVED * SIGHT_REST * node->rest > aim * l->from->area;
     }
@@ -422,6 +427,8 @@ static void compare(struct looking *l, int at, double aim)
         node->error = fmax(SIGHT_REST * fmax(node->rest, differ), node->unseen);
         if (at < l->roots && tells_alike(node, differ))
             node->error = fmax(node->error, SIGHT_ALIKE * node->clear);
+        if (node->error <= aim * node->piece.area)
+            node->error += missed(l, at);
         if (node->error <= aim * node->piece.area)
             return;
     }
@@ -484,11 +491,11 @@ static double integrate(struct looking *l, const struct polygon *part, int all,
             {v[0][0], v[0][1], v[0][2]}, {v[3][0], v[3][1], v[3][2]}, {v[4][0], v[4][1], v[4][2]}};
         start(l, rest, 3, 0, list, count);
     }
-    double aim = limits->many ? SIGHT_BELIEVED * limits->tolerance
-                                    * fmax(nodes[0].points + (l->nodes > 1 ? nodes[1].points : 0),
-                                           limits->floor * least)
-                                    / l->from->area
-                              : -1;
+    double aim = l->believes ? SIGHT_BELIEVED * limits->tolerance
+                                   * fmax(nodes[0].points + (l->nodes > 1 ? nodes[1].points : 0),
+                                          limits->floor * least)
+                                   / l->from->area
+                             : -1;
     l->roots = l->nodes;
     for (int i = 0; i < l->roots; i++) {
         compare(l, i, aim);
@@ -549,21 +556,23 @@ static double sway(const struct element *e, const struct exchange_tree *t, const
     return e->radius / (least + e->radius);
 }
 
-/* So many rays of a pair whose clear view is no more than this share of the error that is allowed:
- * what they leave open is 1/8 of that view at the most, as a standard error. Chosen: a 30th of what
- * is allowed. */
+/* So many rays of a pair, in a scene of many polygons, whose clear view is no more than this share
+ * of the error that is allowed: what they leave open is 1/8 of that view at the most, as a standard
+ * error. Chosen: a 30th of what is allowed. */
 enum { FAINT_RAYS = 16 };
 static const double FAINT = 0.25;
 
 /* Most pairs of a large scene exchange next to nothing, and have the most between them. */
 static int is_faint(const struct sight_limits *limits, double clear, double least)
 {
-    return limits->many && clear <= FAINT * limits->tolerance * limits->floor * least;
+    return clear <= FAINT * limits->tolerance * limits->floor * least;
 }
 
 double sight_pair(const struct element *r, const struct element *s, const struct exchange_tree *t,
-                  const struct sight_list *among, struct sight_scratch *scratch, double *error)
+                  const struct sight_list *among, struct sight_scratch *scratch, int again,
+                  double *error)
 {
+    const int believes = scratch->limits.many && !again;
     double least = fmin(r->area, s->area);
     const struct host *host = &t->host;
     uint32_t own[SIGHT_LIST];
@@ -578,7 +587,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     const double clear = fmin(r->area * polygon_factor(r, s, 1), least);
     if (count == 0)
         return clear;
-    if (is_faint(&scratch->limits, clear, least))
+    if (believes && is_faint(&scratch->limits, clear, least))
         return seen_by_rays(r, s, t, FAINT_RAYS, clear, error);
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
     if (!many && !among)
@@ -592,8 +601,11 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     double sway_r = many ? -r->radius : sway(r, t, own, count),
            sway_s = many ? -s->radius : sway(s, t, own, count);
     int from_r = sway_r < sway_s || (sway_r == sway_s && r->id < s->id);
-    struct looking l = {
-        .tree = t, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
+    struct looking l = {.tree = t,
+                        .from = from_r ? r : s,
+                        .to = from_r ? s : r,
+                        .scratch = scratch,
+                        .believes = believes};
     struct polygon part, seen;
     const int all = clip_front(&part, l.from, l.to, host->flat) && stands == BETWEEN_SOME;
     polygon_clip(&seen, (const double(*)[3])l.to->vertex, l.to->vertices, l.from->centre,

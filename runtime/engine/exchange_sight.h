@@ -48,9 +48,10 @@ double sight_rest(const struct face_fit *fit, const double *seen, const double *
                   double clear);
 
 /* A_r F_rs (m2), no more than if nothing stood between; *error: the error estimated (m2). `among`:
- * of a pair that holds this one; NULL: nobody has looked. */
+ * of a pair that holds this one; NULL: nobody has looked. `again`: of a row that did not add up, so
+ * rules that tell enough are not believed. */
 double sight_pair(const struct element *r, const struct element *s,
                   const struct exchange_tree *tree, const struct sight_list *among,
-                  struct sight_scratch *scratch, double *error);
+                  struct sight_scratch *scratch, int again, double *error);
 
 #endif

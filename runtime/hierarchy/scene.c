@@ -123,8 +123,10 @@ static int check_polygons(struct builder *b, uint32_t *largest, size_t *most)
             for (int k = 0; k < 3; k++) {
                 if (!(fabs(p[k]) <= (double)FLT_MAX))
                     return fail(b->error, invalid,
-                                "corner %u of polygon %u is not finite (%g); correct position %u",
-                                (unsigned)j, (unsigned)i, p[k], (unsigned)index);
+                                "corner %u of polygon %u is %s (%g); correct position %u",
+                                (unsigned)j, (unsigned)i,
+                                isfinite(p[k]) ? "beyond 3.4e38" : "not finite", p[k],
+                                (unsigned)index);
                 b->low[k] = fmin(b->low[k], p[k]);
                 b->high[k] = fmax(b->high[k], p[k]);
             }

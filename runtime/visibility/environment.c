@@ -1,34 +1,45 @@
-/* environment.c - where the rays from a surface go: 64 from each point of a grid.
+/* environment.c - where the rays from a surface go: some from each of its points.
  *
  * The rays say whether any light leaves the scene and share what a row of view factors lacks
  * among the ways out; how much it lacks the row itself knows better.
- * [derived here]
+ * [points anywhere in their cells: R2, M. Roberts 2018, The unreasonable effectiveness of
+ * quasirandom sequences; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include "visibility/environment.h"
 #include "kernel/constants.h"
 #include "kernel/hemisphere.h"
 #include "kernel/surface_point.h"
 
-enum { DIRECTIONS = 64 };
+/* 1 / g and 1 / g^2, g^3 = g + 1 */
+static const double STEP[2] = {0.75487766624669276, 0.56984029099805327};
 
-struct environment environment_of(const struct rays *rays, const struct element *surface, int side)
+/* Where in its cell point i stands. */
+static double within(const struct environment_grid *grid, int i, int k)
+{
+    const double x = 0.5 + i * STEP[k];
+    return grid->anywhere ? x - floor(x) : 0.5;
+}
+
+struct environment environment_of(const struct rays *rays, const struct element *surface,
+                                  struct environment_grid grid)
 {
     const struct hemisphere above = hemisphere_over(surface->normal);
-    const int points = side * side;
+    const int points = grid.side * grid.side;
     const double offset = rays_host(rays)->ray_offset;
     struct environment all = {0, 0, 0, 0};
     for (int i = 0; i < points; i++) {
         double p[3], d[3];
         int met[3] = {0, 0, 0};
-        surface_point(p, surface, (i % side + 0.5) / side, (i / side + 0.5) / side);
+        surface_point(p, surface, (i % grid.side + within(&grid, i, 0)) / grid.side,
+                      (i / grid.side + within(&grid, i, 1)) / grid.side);
         for (int k = 0; k < 3; k++)
             p[k] += offset * surface->normal[k];
-        for (int m = 0; m < DIRECTIONS; m++) {
-            hemisphere_direction(d, &above, m, DIRECTIONS, i / (double)points);
+        for (int m = 0; m < grid.directions; m++) {
+            hemisphere_direction(d, &above, m, grid.directions, i / (double)points);
             met[rays_first(rays, p, d, NULL, NULL)]++;
         }
-        if (met[RAY_MEETS_BACK] >= ENVIRONMENT_BACKS * DIRECTIONS) {
-            all.covered += DIRECTIONS;
+        if (met[RAY_MEETS_BACK] >= ENVIRONMENT_BACKS * grid.directions) {
+            all.covered += grid.directions;
             continue;
         }
         all.fronts += met[RAY_MEETS_FRONT];

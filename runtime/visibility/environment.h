@@ -14,10 +14,18 @@ struct environment {
     int covered;
 };
 
-/* The points stand on a grid of side x side; what is smaller than a cell may be missed. */
-enum { ENVIRONMENT_COARSE = 4, ENVIRONMENT_FINE = 16 };
+/* Points in side x side cells, each with so many rays: in the middles of the cells, or anywhere in
+ * them, as rows may all miss a strip along them. What is smaller than a cell may be missed. Few
+ * points with many rays share out well what goes far away, many with few find what small feet
+ * cover. */
+struct environment_grid {
+    int side, directions, anywhere;
+};
+static const struct environment_grid environment_coarse = {4, 64, 0},
+                                     environment_fine = {64, 16, 1};
 
-/* Thread-safe. The result depends on the surface, the scene and `side` alone. */
-struct environment environment_of(const struct rays *rays, const struct element *surface, int side);
+/* Thread-safe. The result depends on the surface, the scene and the points alone. */
+struct environment environment_of(const struct rays *rays, const struct element *surface,
+                                  struct environment_grid grid);
 
 #endif

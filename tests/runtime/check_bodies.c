@@ -389,7 +389,7 @@ START_TEST(test_horizon)
             const struct element *a = exchange_tree_face(&t, pair.rows.from + i),
                                  *b = exchange_tree_face(&t, pair.columns.from + j);
             double error;
-            const double one = sight_pair(a, b, &t, NULL, &scratch, &error);
+            const double one = sight_pair(a, b, &t, NULL, &scratch, 0, &error);
             ck_assert_double_le(fabs(values[i][j] - one), 2e-4 * fmax(one, limits.floor * a->area));
             part += one < 0.9 * a->area * polygon_factor(a, b, 1) && one > 0;
         }

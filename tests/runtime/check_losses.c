@@ -283,6 +283,27 @@ START_TEST(test_pillar)
 }
 END_TEST
 
+/* A thin slab pushed through the floor covers a four hundredth of it, along rows of points that a
+ * grid would have. */
+START_TEST(test_slab)
+{
+    static const double from[3] = {0.4, 0.2, -0.1}, to[3] = {0.404, 0.8, 0.3};
+    struct shape s;
+    put_cube(&s);
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++)
+            s.position[8 + i][k] = corners[i][k] > 0 ? to[k] : from[k];
+    for (uint32_t f = 0; f < 6; f++)
+        for (int i = 0; i < 4; i++) /* fronts outside */
+            s.corner[6 + f][i] = 8 + cube[f][3 - i];
+    s.count = 12;
+    compute(&s, RAD_CLOSURE_NONE);
+    ck_assert_double_eq_tol(s.loss[0].covered, 0.0024, 3e-4);
+    ck_assert_double_eq_tol(s.sum[0], 0.9976, 3e-4);
+    close_shape(&s);
+}
+END_TEST
+
 /* A box with its own bottom on the floor of the cube: what it covers is known to the digit, and no
  * light is said to leave from under it. */
 START_TEST(test_box)
@@ -312,6 +333,7 @@ int main(void)
     TCase *rows = tcase_create("rows");
     tcase_add_test(rows, test_closed);
     tcase_add_test(rows, test_pillar);
+    tcase_add_test(rows, test_slab);
     tcase_add_test(rows, test_box);
     tcase_add_test(rows, test_sky);
     tcase_add_test(rows, test_turned);

@@ -71,7 +71,7 @@ START_TEST(test_squares)
     const struct sight_limits limits = sight_limits_for(1e-4, s.input_count, s.face_count);
     ck_assert_int_eq(sight_scratch_open(&scratch, &limits), 0);
     const struct element *a = face_of(&t, 0), *b = face_of(&t, 1);
-    const double right = sight_pair(a, b, &t, NULL, &scratch, &rest)
+    const double right = sight_pair(a, b, &t, NULL, &scratch, 0, &rest)
                          / (a->area * polygon_factor(a, b, 1)),
                  share[2] = {sight_rays(a, b, &t.host, 4096, &error[0]),
                              sight_rays(b, a, &t.host, 4096, &error[1])};
@@ -107,7 +107,7 @@ START_TEST(test_slot)
     const struct sight_limits limits = sight_limits_for(3e-4, 1000, 1000);
     ck_assert_int_eq(sight_scratch_open(&scratch, &limits), 0);
     const struct element *a = face_of(&t, 0), *b = face_of(&t, 1);
-    const double value = sight_pair(a, b, &t, NULL, &scratch, &error[0]) / b->area,
+    const double value = sight_pair(a, b, &t, NULL, &scratch, 0, &error[0]) / b->area,
                  clear = polygon_factor(b, a, 1),
                  share = sight_rays(b, a, &t.host, 4096, &error[1]);
     ck_assert_double_gt(share * clear, 0.01);

@@ -353,7 +353,7 @@ START_TEST(test_many)
     const struct sight_limits limits = sight_limits_for(3e-4, s.input_count, s.face_count);
     const struct element *low = face_of(&t, 0), *high = face_of(&t, 1);
     ck_assert_int_eq(sight_scratch_open(&scratch, &limits), 0);
-    const double value = sight_pair(low, high, &t, NULL, &scratch, &error),
+    const double value = sight_pair(low, high, &t, NULL, &scratch, 0, &error),
                  clear = polygon_factor(low, high, 1),
                  rays = visibility_rays(low, high, &t.host, SOBOL_MOST, 0);
     ck_assert_double_eq_tol(value, clear * rays, 4 * clear * sqrt(rays * (1 - rays) / SOBOL_MOST));
