@@ -209,6 +209,8 @@ static void check_tool(struct search *search, int tool, const struct need *need,
 
 /* ---- what is computed again, and worse */
 
+/* A tool writes at its level or better: how much better its arguments may say, as the number of
+ * rays does, so only of a tool without any it is known. */
 static void check_falling(struct search *search, int term, const unsigned char *sure)
 {
     struct dag *dag = search->dag;
@@ -220,7 +222,7 @@ static void check_falling(struct search *search, int term, const unsigned char *
         for (int k = tool->writes.first; k < tool->writes.first + tool->writes.count; k++)
             explicit |= dag->needs[k].term == term && dag->needs[k].level_name != NULL;
         int level = dag_written_level(dag, tool, -1, term);
-        if (!explicit || level >= sure[i])
+        if (!explicit || tool->parameters.count > 0 || level >= sure[i])
             continue;
         dag->use = node->use;
         if (!dag_warn(dag, WARNING_FALLING_PRECISION, node->tool_where,

@@ -94,6 +94,11 @@ void dag_print_string(struct text *text, const char *value)
 {
     print_byte(text, '"');
     for (; *value != '\0'; value++) {
+        const unsigned char byte = (unsigned char)*value;
+        if (byte < ' ' || byte == 0x7f) { /* as a file's name may have */
+            dag_print(text, "\\%03o", byte);
+            continue;
+        }
         if (*value == '"' || *value == '\\' || *value == '?') /* "??/" would be a trigraph */
             print_byte(text, '\\');
         print_byte(text, *value);

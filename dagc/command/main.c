@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700 /* sigaction */
 
+#include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -204,6 +205,15 @@ static int run(struct job *job)
     return result;
 }
 
+/* What was printed has arrived: 0, else 1 after a message. */
+static int end_output(void)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return 0;
+    fprintf(stderr, "dagc: error: cannot write standard output: %s\n", strerror(errno));
+    return 1;
+}
+
 static int run_diff(const struct job *job)
 {
     struct dag_options options = {0};
@@ -211,7 +221,7 @@ static int run_diff(const struct job *job)
     options.folders = job->folders;
     options.folder_count = job->folder_count;
     int result = dag_diff(job->input_path, job->second_path, &options, stdout);
-    return fflush(stdout) != 0 ? 2 : result;
+    return end_output() != 0 ? 2 : result;
 }
 
 static void on_signal(int number)
@@ -252,7 +262,7 @@ int main(int count, char **arguments)
     int status =
         diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
     if (status == 0)
-        status = fflush(stdout) != 0;
+        status = end_output();
     else if (status < 0)
         status = diff ? run_diff(&job) : run(&job);
     free(job.folders);

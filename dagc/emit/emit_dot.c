@@ -245,6 +245,9 @@ static void print_oracle(struct dag *dag, struct text *out, int index)
         dag_print(out, "  }\n");
 }
 
+/* nodes: of more, dot spends minutes on curves */
+enum { CURVED = 100 };
+
 void dag_emit_dot(struct dag *dag, struct text *out)
 {
     const struct source *source = &dag->sources[dag->oracles[0].where.source];
@@ -259,6 +262,11 @@ void dag_emit_dot(struct dag *dag, struct text *out)
         "        margin=\"0.14,0.06\", height=0.3, fontname=\"Helvetica,Arial,sans-serif\"];\n"
         "  edge [color=\"#334466\", fontsize=9, fontcolor=\"#334466\", arrowsize=0.6,\n"
         "        fontname=\"Helvetica,Arial,sans-serif\"];\n");
+    int nodes = 0;
+    for (int i = 0; i < dag->oracle_count; i++)
+        nodes += dag->oracles[i].order.count;
+    if (nodes > CURVED)
+        dag_print(out, "  splines=line; nslimit=1; nslimit1=1; mclimit=0.1;\n");
     for (int i = 0; i < dag->oracle_count; i++)
         print_oracle(dag, out, i);
     dag_print(out, "}\n");

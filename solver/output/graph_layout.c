@@ -51,11 +51,16 @@ static void print_branch(FILE *out, const struct drawing *p, int branch)
         }
 }
 
+/* nodes: of more, dot spends minutes on curves */
+enum { CURVED = 100 };
+
 static void print_dot(FILE *out, const struct drawing *p)
 {
     fputs("digraph graph_ {\nrankdir=TB; nodesep=0.2; ranksep=0.3;\n"
           "node [shape=box, fixedsize=true, label=\"\"];\nedge [arrowsize=0.8];\n",
           out);
+    if (p->node_count > CURVED)
+        fputs("splines=line; nslimit=1; nslimit1=1; mclimit=0.1;\n", out);
     print_branch(out, p, -1);
     for (size_t i = 0; i < p->arc_count; i++) {
         const struct drawing_arc *a = &p->arcs[i];

@@ -26,6 +26,11 @@ check "standalone" make_text alone small.dag "--standalone --prefix alone"
 "$dagc" --emit=catalog-h -o catalog.h test_catalog.dag
 check "it compiles" cc $warnings -I. -Iruntime -I"$top/runtime" small.c
 check "so does that" cc $warnings alone.c
+cp small.dag "new
+line.dag"
+check "a file with a newline in its name" make_text newline "new
+line.dag" "--standalone --prefix newline"
+check "compiles, too" cc $warnings newline.c
 
 # Mistakes: in a call that the graph makes, in a tool.
 sed 's/tool_weigh(&d/tool_wiegh(\&d/' small.c >wrong.c

@@ -78,6 +78,7 @@ check "a file that cannot grow" fails_with 1 'cannot write old.c' sh -c 'ulimit 
 check "a file that cannot grow leaves files" untouched
 check "full device" fails_with 1 'No space left' $run -o /dev/full good.dag
 check "full device as standard output" fails_with 1 'cannot write standard output' sh -c "$run good.dag >/dev/full"
+check "full device for the help" fails_with 1 'cannot write standard output' sh -c "$run --help >/dev/full"
 check "full device and header" fails_with 1 'No space left' $run -o /dev/full --header old.h good.dag
 check "full device leaves the header" untouched
 mkdir disk

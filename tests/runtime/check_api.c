@@ -893,6 +893,57 @@ START_TEST(test_no_handle)
 }
 END_TEST
 
+/* Where a call's caller gives no place for what it returns, the device says so. */
+START_TEST(test_no_place)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    RadReference reference = radNewReference(scene);
+    RadExchange exchange = radNewExchange(scene, NULL, NULL);
+    const double at[3] = {0, 0, 0};
+    const char *const nothing[1] = {NULL};
+    struct discussion pair = {0};
+    char name[RAD_NAME];
+    uint32_t element;
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_ptr_nonnull(exchange);
+#define REFUSED(call) \
+    do { \
+        ck_assert_int_eq(call, -1); \
+        expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "which is NULL"); \
+    } while (0)
+    REFUSED(radGetSceneReport(scene, NULL));
+    REFUSED(radFindCauses(solution, NULL, NULL));
+    REFUSED(radAccountErrors(solution, NULL, NULL));
+    REFUSED(radGetSolutionState(solution, NULL));
+    REFUSED(radSetSolutionState(solution, NULL));
+    REFUSED(radGetElementName(solution, 0, NULL));
+    REFUSED(radFindElement(solution, NULL, &element));
+    REFUSED(radFindElement(solution, "root", NULL));
+    REFUSED(radFindFaceAt(solution, NULL, &element));
+    REFUSED(radFindFaceAt(solution, at, NULL));
+    REFUSED(radExplain(solution, NULL, &pair, NULL));
+    REFUSED(radExplain(solution, oracle, NULL, NULL));
+    REFUSED(radExplain(solution, oracle, &pair, NULL));
+    REFUSED(radGetOracleStatistics(oracle, NULL));
+    REFUSED(radGetExchangeLoss(exchange, 0, NULL));
+    REFUSED(radGetReferenceReport(reference, NULL));
+    REFUSED(radMeasureErrorBy(solution, reference, NULL));
+#undef REFUSED
+    ck_assert_int_eq(radGetElementName(solution, 0, name), 0);
+    ck_assert_ptr_null(radLoadOracleReplaced(device, "bf", NULL, RAD_RELEASE_FLAT, nothing, 1));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "replacements");
+    radReleaseExchange(exchange);
+    radReleaseReference(reference);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 static void expect_bad_scene(RadDevice device, const struct RadPolygons *polygons,
                              const struct RadMaterial *material, const char *part)
 {
@@ -932,6 +983,12 @@ START_TEST(test_bad_scenes)
                                            .materials = lamp_above,
                                            .count = 6},
                      &good, "material 1");
+    RadScene turned = radNewScene(device);
+    p.turned = (enum RadTurned)99;
+    ck_assert_int_eq(radSetSceneSharedPolygons(turned, &p), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "enum RadTurned");
+    radReleaseScene(turned);
+    p.turned = RAD_TURNED_IGNORE;
     double positions[24];
     memcpy(positions, corners, sizeof positions);
     positions[7] = (double)NAN;
@@ -1447,6 +1504,7 @@ int main(void)
     tcase_add_test(t, test_registered);
     tcase_add_test(t, test_statistics);
     tcase_add_test(t, test_no_handle);
+    tcase_add_test(t, test_no_place);
     tcase_add_test(t, test_bad_scenes);
     tcase_add_test(t, test_solvers);
     tcase_add_test(t, test_bad_options);
