@@ -12,6 +12,7 @@
 #include "suite.h"
 
 enum { ROOMS = 12, TABLES = 3, CELLS = 4, FLOOR = CELLS * CELLS, WALLS = 6 * FLOOR };
+enum { OFF = 9 };                   /* the room that has a row which does not add up at first */
 enum { TABLE = 22, UNDERSIDE = 4 }; /* faces of a table; the board's lower side, where legs stand */
 static const double TOLERANCE = 3e-4;
 
@@ -136,6 +137,85 @@ START_TEST(test_entries)
 }
 END_TEST
 
+/* A state put down while rows are looked at again: nothing of that is in it, and what goes on from
+ * it has the bits of what was never put down. */
+struct kept {
+    unsigned char bytes[1 << 21];
+    size_t size, read;
+    int again, stops; /* it is at it; so often it was put down there */
+};
+
+static int watch(void *user, const struct RadProgress *at)
+{
+    struct kept *k = user;
+    k->again = strcmp(at->phase, "again") == 0;
+    return 0;
+}
+
+static enum RadStateWish ask(void *user)
+{
+    struct kept *k = user;
+    k->stops += k->again;
+    return k->again ? RAD_STATE_STOP : RAD_STATE_NONE;
+}
+
+static int keep(void *user, const void *bytes, size_t size)
+{
+    struct kept *k = user;
+    ck_assert_uint_le(k->size + size, sizeof k->bytes);
+    if (size)
+        memcpy(k->bytes + k->size, bytes, size);
+    k->size += size;
+    return 0;
+}
+
+static size_t give(void *user, void *bytes, size_t size)
+{
+    struct kept *k = user;
+    const size_t left = k->size - k->read, count = left < size ? left : size;
+    memcpy(bytes, k->bytes + k->read, count);
+    k->read += count;
+    return count;
+}
+
+START_TEST(test_put_down)
+{
+    static struct kept k;
+    static double whole[FACES * FACES], areas[FACES], row[FACES];
+    const struct RadMaterial grey = {.reflectance = {.5, .5, .5}};
+    const struct RadExchangeState down = {.asked = ask, .write = keep, .user = &k},
+                                  on = {.read = give, .user = &k};
+    struct RadExchangeOptions how = {.tolerance = TOLERANCE, .state = &down};
+    furnish(OFF, 0);
+    factors(scene.faces, TOLERANCE, whole, areas);
+    const struct RadPolygons polygons = {.positions = scene.positions,
+                                         .position_count = scene.positions_used,
+                                         .indices = scene.indices,
+                                         .sizes = scene.sizes,
+                                         .materials = scene.materials,
+                                         .count = scene.faces};
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 2});
+    RadScene s = radNewScene(device);
+    radSetDeviceProgressFunction(device, watch, &k);
+    ck_assert_int_eq(radSetSceneMaterials(s, &grey, 1), 0);
+    ck_assert_int_eq(radSetSceneSharedPolygons(s, &polygons), 0);
+    ck_assert_int_eq(radCommitScene(s), 0);
+    ck_assert_ptr_null(radNewExchange(s, NULL, &how));
+    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_CANCELLED);
+    ck_assert_int_eq(k.stops, 1);
+    how.state = &on;
+    RadExchange exchange = radNewExchange(s, NULL, &how);
+    ck_assert_msg(exchange != NULL, "%s", radGetDeviceErrorMessage(device));
+    for (uint32_t i = 0; i < scene.faces; i++) {
+        ck_assert_double_ge(radGetExchangeRow(exchange, i, row), 0);
+        ck_assert(memcmp(row, &whole[(size_t)i * scene.faces], scene.faces * sizeof *row) == 0);
+    }
+    radReleaseExchange(exchange);
+    radReleaseScene(s);
+    radReleaseDevice(device);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("again");
@@ -144,5 +224,6 @@ int main(void)
     suite_add_tcase(suite, rows);
     tcase_add_loop_test(rows, test_rows, 0, ROOMS);
     tcase_add_test(rows, test_entries);
+    tcase_add_test(rows, test_put_down);
     return suite_failures(suite);
 }

@@ -213,7 +213,8 @@ START_TEST(test_refused)
         at[7] = i == 0 ? NAN : i == 1 ? -INFINITY : 1e39;
         p = good;
         p.positions = at;
-        expect_refusal(&p, &grey, 1, "corner 2 of polygon 0 is not finite");
+        expect_refusal(&p, &grey, 1,
+                       i == 2 ? "beyond 3.4e38 (1e+39)" : "corner 2 of polygon 0 is not finite");
     }
     for (int i = 0; i < 3; i++)
         memcpy(&at[3 * i], &square[3 * (i % 2)], 3 * sizeof *at);

@@ -283,20 +283,28 @@ START_TEST(test_pillar)
 }
 END_TEST
 
-/* A thin slab pushed through the floor covers a four hundredth of it, along rows of points that a
- * grid would have. */
+/* A thin bent slab, which is no convex solid, pushed through the floor covers a four hundredth of
+ * it, along rows of points that a grid would have. */
 START_TEST(test_slab)
 {
-    static const double from[3] = {0.4, 0.2, -0.1}, to[3] = {0.404, 0.8, 0.3};
+    static const double plan[6][2] = {{.4, .2},   {.404, .2}, {.424, .5},
+                                      {.404, .8}, {.4, .8},   {.42, .5}};
+    static const uint32_t top[2][4] = {{0, 1, 2, 5}, {5, 2, 3, 4}};
     struct shape s;
     put_cube(&s);
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 3; k++)
-            s.position[8 + i][k] = corners[i][k] > 0 ? to[k] : from[k];
-    for (uint32_t f = 0; f < 6; f++)
-        for (int i = 0; i < 4; i++) /* fronts outside */
-            s.corner[6 + f][i] = 8 + cube[f][3 - i];
-    s.count = 12;
+    for (uint32_t i = 0; i < 12; i++) {
+        s.position[8 + i][0] = plan[i % 6][0];
+        s.position[8 + i][1] = plan[i % 6][1];
+        s.position[8 + i][2] = i < 6 ? -0.1 : 0.3;
+    }
+    for (uint32_t i = 0; i < 6; i++) {
+        const uint32_t next = (i + 1) % 6, side[4] = {8 + i, 8 + next, 14 + next, 14 + i};
+        memcpy(s.corner[s.count++], side, sizeof side);
+    }
+    for (uint32_t i = 0; i < 2; i++)
+        for (int k = 0; k < 4; k++)
+            s.corner[s.count + i][k] = 14 + top[i][k];
+    s.count += 2;
     compute(&s, RAD_CLOSURE_NONE);
     ck_assert_double_eq_tol(s.loss[0].covered, 0.0024, 3e-4);
     ck_assert_double_eq_tol(s.sum[0], 0.9976, 3e-4);
