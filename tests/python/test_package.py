@@ -200,6 +200,8 @@ def test_errors():
             ("material 1 has reflectance 2", (CORNERS, CUBE, [0, 1] * 3), {"reflectance": [0, 2]}),
             ("reflectance has shape (2,)", (CORNERS, CUBE), {"reflectance": [0, 0]}),
             ("materials must be", (CORNERS, CUBE, [0, 1]), {}),
+            ("face 5 has material 1000000000, but there are 2 rows", (CORNERS, CUBE, [0, 0, 0, 0, 1, 10**9]),
+             {"reflectance": [[0.1, 0.1, 0.1], [0.2, 0.2, 0.2]]}),
             ("threads is -1", (CORNERS, CUBE), {"threads": -1}),
             ("one label for each of the 6 faces", (CORNERS, CUBE), {"groups": "a"})):
         raises(wrong, text, make, *arguments, **named)
