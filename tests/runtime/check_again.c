@@ -11,7 +11,7 @@
 #include "runtime/room_judge.h"
 #include "suite.h"
 
-enum { ROOMS = 12, TABLES = 3, CELLS = 4, FLOOR = CELLS * CELLS, WALLS = 6 * FLOOR };
+enum { TABLES = 3, CELLS = 4, FLOOR = CELLS * CELLS, WALLS = 6 * FLOOR };
 enum { OFF = 9 };                   /* the room that has a row which does not add up at first */
 enum { TABLE = 22, UNDERSIDE = 4 }; /* faces of a table; the board's lower side, where legs stand */
 static const double TOLERANCE = 3e-4;
@@ -97,10 +97,13 @@ static void furnish(uint64_t seed, int open)
     }
 }
 
+/* Those of twelve that were worst. */
+static const uint64_t rooms[] = {0, 3, 4, 6, OFF, 11};
+
 START_TEST(test_rows)
 {
     static double f[FACES * FACES], areas[FACES];
-    furnish((uint64_t)_i, 0);
+    furnish(rooms[_i], 0);
     factors(scene.faces, TOLERANCE, f, areas);
     for (uint32_t i = FLOOR; i < scene.faces; i++) {
         double sum = 0;
@@ -219,11 +222,11 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("again");
-    TCase *rows = tcase_create("rows");
-    tcase_set_timeout(rows, 120);
-    suite_add_tcase(suite, rows);
-    tcase_add_loop_test(rows, test_rows, 0, ROOMS);
-    tcase_add_test(rows, test_entries);
-    tcase_add_test(rows, test_put_down);
+    TCase *tests = tcase_create("rows");
+    tcase_set_timeout(tests, 120);
+    suite_add_tcase(suite, tests);
+    tcase_add_loop_test(tests, test_rows, 0, sizeof rooms / sizeof *rooms);
+    tcase_add_test(tests, test_entries);
+    tcase_add_test(tests, test_put_down);
     return suite_failures(suite);
 }
