@@ -9,16 +9,21 @@
 
 enum { MADE_FACES = 32768, MADE_MATERIALS = 16 };
 
-/* An empty scene with room for that many. Returns 0, or -1 when out of memory. */
-static inline int made_open(struct scene *s)
+/* An empty scene with room for so many faces. Returns 0, or -1 when out of memory. */
+static inline int made_open_for(struct scene *s, size_t faces)
 {
     memset(s, 0, sizeof *s);
-    s->faces = calloc(MADE_FACES, sizeof *s->faces);
+    s->faces = calloc(faces, sizeof *s->faces);
     s->materials = calloc(MADE_MATERIALS, sizeof *s->materials);
-    s->areas = calloc(MADE_FACES, sizeof *s->areas);
-    s->input_materials = calloc(MADE_FACES, sizeof *s->input_materials);
+    s->areas = calloc(faces, sizeof *s->areas);
+    s->input_materials = calloc(faces, sizeof *s->input_materials);
     s->bands = 1;
     return s->faces && s->materials && s->areas && s->input_materials ? 0 : -1;
+}
+
+static inline int made_open(struct scene *s)
+{
+    return made_open_for(s, MADE_FACES);
 }
 
 /* A grey material. Returns its index. */
