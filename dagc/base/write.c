@@ -155,3 +155,8 @@ int dag_write_outputs(struct output *outputs, int count)
     dag_tidy_release();
     return result;
 }
+
+int dag_write_ends(void)
+{
+    return fflush(stdout) != 0 || ferror(stdout) ? fail("standard output", errno) : 0;
+}

@@ -16,4 +16,7 @@ struct output {
 /* Writes all outputs or, when one of them fails, none; says why on standard error. 0 or -1. */
 int dag_write_outputs(struct output *outputs, int count);
 
+/* Has what was printed to standard output arrived? Returns 0, or -1 after a message. */
+int dag_write_ends(void);
+
 #endif

@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700 /* sigaction */
 
-#include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -189,7 +188,7 @@ static int run(struct job *job)
             else if (job->skeleton)
                 result = dag_write_skeleton(&job->files, folder_of(job)) != 0;
             else if (job->prove)
-                result = job->proved != 0 || fflush(stdout) != 0;
+                result = job->proved != 0 || dag_write_ends() != 0;
             else if (!draws || dag_draw_svg(out) == 0)
                 result = dag_write_outputs(job->outputs, OUTPUTS) != 0;
         }
@@ -205,15 +204,6 @@ static int run(struct job *job)
     return result;
 }
 
-/* What was printed has arrived: 0, else 1 after a message. */
-static int end_output(void)
-{
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return 0;
-    fprintf(stderr, "dagc: error: cannot write standard output: %s\n", strerror(errno));
-    return 1;
-}
-
 static int run_diff(const struct job *job)
 {
     struct dag_options options = {0};
@@ -221,7 +211,7 @@ static int run_diff(const struct job *job)
     options.folders = job->folders;
     options.folder_count = job->folder_count;
     int result = dag_diff(job->input_path, job->second_path, &options, stdout);
-    return end_output() != 0 ? 2 : result;
+    return dag_write_ends() != 0 ? 2 : result;
 }
 
 static void on_signal(int number)
@@ -262,7 +252,7 @@ int main(int count, char **arguments)
     int status =
         diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
     if (status == 0)
-        status = end_output();
+        status = dag_write_ends() != 0;
     else if (status < 0)
         status = diff ? run_diff(&job) : run(&job);
     free(job.folders);

@@ -176,10 +176,10 @@ def _materials(faces, materials, reflectance, exitance, two_sided):
         given = [len(v) for v in map(np.asarray, (reflectance, exitance, two_sided)) if v.ndim and len(v) > 1]
         if not given: # all alike, whatever the numbers are
             materials = np.unique(materials, return_inverse=True)[1].reshape(-1)
-        elif materials.max() >= 1000 * max(given): # before there is a row for each number up to it
-            face = int(materials.argmax())
-            raise InvalidInput(f"face {face} has material {materials[face]}, but there are {max(given)} rows, from 0")
-        count, rows = max([int(materials.max()) + 1] + given), "materials"
+        count, rows = max(given, default=int(materials.max()) + 1), "materials"
+        face = int(materials.argmax())
+        if materials[face] >= count:
+            raise InvalidInput(f"face {face} has material {materials[face]}, but there are {count} rows, from 0")
     table = np.hstack([_column("reflectance", reflectance, count, rows), _column("exitance", exitance, count, rows),
                        _column("two_sided", two_sided, count, rows)[:, :1] != 0])
     if materials is not None:

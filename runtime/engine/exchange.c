@@ -269,8 +269,9 @@ static int ask(struct exchange *x, const struct asking *a)
     return 0;
 }
 
-/* What rows sum to, and shares of their areas; 1 of rows that nobody asks for. Returns 0 or -1. */
-static int add_rows(const struct exchange *x, double *sums, double *share)
+/* What rows sum to, shares of their areas, 1 of rows that nobody asks for; and where the light goes
+ * that they lack. Returns 0 or -1. */
+static int add_rows(struct exchange *x, const struct asking *a, double *sums, double *share)
 {
     const struct exchange_areas *m = &x->areas;
     if (exchange_sums(m, x->threads, NULL, sums) < 0)
@@ -280,7 +281,7 @@ static int add_rows(const struct exchange *x, double *sums, double *share)
             sums[i] = m->area[i];
         share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
     }
-    return 0;
+    return ask(x, a);
 }
 
 /* Is row i off by more than chance explains? What a row lacks whose light goes elsewhere, too, is
@@ -301,8 +302,7 @@ static uint32_t find_off(const struct asking *a, unsigned char *off)
     return count;
 }
 
-/* Row sums, where the light goes that they lack, a second look at rows that are off, their account,
- * and closure. */
+/* Row sums, a second look at rows that are off, their account, and closure. */
 static int close_rows(struct exchange *x, const struct exchange_options *o,
                       const struct exchange_aim *how)
 {
@@ -314,23 +314,21 @@ static int close_rows(struct exchange *x, const struct exchange_options *o,
     struct asking asking = {.exchange = x, .options = o, .share = share, .ways = x->losses};
     int status = share && before && sums && mark && x->losses ? 0 : -1;
     if (status == 0)
-        status = add_rows(x, sums, share) < 0 || ask(x, &asking) < 0 ? -1 : 0;
+        status = add_rows(x, &asking, sums, share);
     if (status == 0 && !o->stream && find_off(&asking, mark)) {
         memcpy(before, share, size);
         x->phase = "again";
         asking.before = before;
-        status = exchange_again(&x->areas, &x->refinement, mark, how) < 0
-                         || add_rows(x, sums, share) < 0 || ask(x, &asking) < 0
-                     ? -1
-                     : 0;
+        status = exchange_again(&x->areas, &x->refinement, mark, how);
+        if (status == 0)
+            status = add_rows(x, &asking, sums, share);
     }
     if (status == 0) {
         account(x, share, mark);
-        status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, mark) < 0
-                         || follow_closure(x, sums) < 0
-                     ? -1
-                     : 0;
+        status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, mark);
     }
+    if (status == 0)
+        status = follow_closure(x, sums);
     free(share);
     free(before);
     free(sums);

@@ -18,9 +18,8 @@ struct exchange_options {
     int threads;
     /* Told from the calling thread after each round of refinement ("refine"), and before values are
      * computed and while they are ("factors", exchange.share of them done; "again", those of rows
-     * that were off); once instead
-     * ("resumed") where the work of a run before stands. Anything but 0 cancels. NULL: nobody is.
-     */
+     * that were off); once instead ("resumed") where the work of a run before stands. Anything but
+     * 0 cancels. NULL: nobody is. */
     int (*progress)(void *context, const struct exchange *exchange, const char *phase);
     void *context; /* of progress */
     uint32_t rows; /* of the first so many inputs, which alone are accounted for; 0: all */

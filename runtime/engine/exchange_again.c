@@ -9,8 +9,9 @@
 #include "engine/exchange_tiles.h"
 #include "util/ranks_loop.h"
 
-/* So many pairs a thread, then somebody is told; each takes from microseconds to a second. */
-enum { AT_A_TIME = 128 };
+/* So many pairs, on all ranks alike, however many threads these have, then somebody is told; each
+ * takes from microseconds to a second. */
+enum { AT_A_TIME = 256 };
 
 /* An entry: its two faces, or parts of faces; which value of which block. */
 struct entry {
@@ -31,28 +32,25 @@ static uint32_t element_at(const struct exchange_tree *t, uint32_t linked, uint3
     return t->h.elements[linked].group ? t->h.face_element[t->h.order[place]] : linked;
 }
 
-/* All entries of rows that are off: listed, or counted only. */
-static size_t list_entries(const struct exchange_areas *m, const struct refinement *refinement,
+/* All entries of rows that are off, of blocks of these links: listed, or counted only. */
+static size_t list_entries(const struct exchange_areas *m, const struct link *const *links,
                            const unsigned char *off, struct entry *entries)
 {
-    struct exchange_tiles t = exchange_tiles(m, refinement);
     size_t count = 0;
-    for (size_t i = 0; exchange_tiles_next(&t); i++) {
+    for (size_t i = 0; i < m->block_count; i++) {
         const struct exchange_block *b = &m->blocks[i];
-        if (exchange_link_proved(t.link))
+        if (exchange_link_proved(links[i]))
             continue;
         for (uint32_t r = b->row; r < b->row + b->rows; r++)
             for (uint32_t s = b->column; s < b->column + b->columns; s++) {
                 if (!off[m->input[r]] && !off[m->input[s]])
                     continue;
                 if (entries)
-                    entries[count] =
-                        (struct entry){element_at(m->tree, t.link->receiver, r),
-                                       element_at(m->tree, t.link->emitter, s),
-                                       i,
-                                       b->at + (size_t)(r - b->row) * b->columns + (s - b->column),
-                                       0,
-                                       0};
+                    entries[count] = (struct entry){
+                        .receiver = element_at(m->tree, links[i]->receiver, r),
+                        .emitter = element_at(m->tree, links[i]->emitter, s),
+                        .block = i,
+                        .at = b->at + (size_t)(r - b->row) * b->columns + (s - b->column)};
                 count++;
             }
     }
@@ -73,7 +71,7 @@ static void look(const void *looking, size_t from, size_t to)
 
 /* Is no more of it wanted, after this share? */
 static int is_stopped(const struct exchange_areas *m, const struct exchange_aim *how,
-                      const struct link **links, double share)
+                      const struct link *const *links, double share)
 {
     return (how->tell && how->tell(how->context, share))
            || (how->state && exchange_state_ask(how->state)
@@ -81,54 +79,69 @@ static int is_stopped(const struct exchange_areas *m, const struct exchange_aim 
 }
 
 /* Returns 0, or -1 on all ranks when it is not wanted any more. */
-static int look_at_all(struct looking *l, size_t count, const struct exchange_aim *how,
-                       const struct link **links)
+static int look_at_all(const struct looking *all, size_t count, const struct exchange_aim *how,
+                       const struct link *const *links)
 {
-    const struct exchange_areas *m = l->areas;
-    const size_t most = AT_A_TIME * (size_t)how->threads;
-    struct entry *all = l->entries;
-    for (size_t from = 0; from < count; from += most) {
-        const size_t n = count - from < most ? count - from : most;
-        l->entries = all + from;
-        ranks_loop_run(m->ranks, RANKS_VALUES, how->threads, n, 1, look, l, l->entries,
-                       sizeof *all);
+    const struct exchange_areas *m = all->areas;
+    for (size_t from = 0; from < count; from += AT_A_TIME) {
+        const size_t n = count - from < AT_A_TIME ? count - from : AT_A_TIME;
+        const struct looking some = {m, all->scratch, all->entries + from};
+        ranks_loop_run(m->ranks, RANKS_VALUES, how->threads, n, 1, look, &some, some.entries,
+                       sizeof *some.entries);
         if (is_stopped(m, how, links, (double)(from + n) / (double)count))
             return -1;
     }
-    l->entries = all;
     return 0;
+}
+
+/* What the entries came to takes the place of what was there. */
+static void put_entries(struct exchange_areas *m, const struct entry *entries, size_t count)
+{
+    const struct element *elements = m->tree->h.elements;
+    for (size_t i = 0; i < count; i++) {
+        const struct entry *e = &entries[i];
+        const double least = fmin(elements[e->receiver].area, elements[e->emitter].area);
+        struct exchange_block *b = &m->blocks[e->block];
+        m->values[e->at] = e->value;
+        b->error = fmax(b->error, e->error / least);
+    }
+}
+
+/* exchange_again, of blocks of these links. */
+static int look_again(struct exchange_areas *m, const struct link *const *links,
+                      const unsigned char *off, const struct exchange_aim *how)
+{
+    const size_t count = list_entries(m, links, off, NULL);
+    struct looking l = {m, calloc((size_t)how->threads, sizeof *l.scratch),
+                        malloc((count + 1) * sizeof *l.entries)};
+    int failed = !l.scratch || !l.entries;
+    for (int k = 0; k < how->threads && !failed; k++)
+        failed = exchange_scratch_open(&l.scratch[k], &m->limits) < 0;
+    failed = ranks_any(m->ranks, failed);
+    if (!failed) {
+        (void)list_entries(m, links, off, l.entries);
+        failed = look_at_all(&l, count, how, links) < 0;
+    }
+    if (!failed)
+        put_entries(m, l.entries, count);
+    for (int k = 0; k < how->threads && l.scratch; k++)
+        exchange_scratch_close(&l.scratch[k]);
+    free(l.scratch);
+    free(l.entries);
+    return failed ? -1 : 0;
 }
 
 int exchange_again(struct exchange_areas *m, const struct refinement *refinement,
                    const unsigned char *off, const struct exchange_aim *how)
 {
-    const size_t count = list_entries(m, refinement, off, NULL);
-    struct looking l = {m, calloc((size_t)how->threads, sizeof *l.scratch),
-                        malloc((count + 1) * sizeof *l.entries)};
     const struct link **links = malloc((m->block_count + 1) * sizeof *links);
-    int failed = !l.scratch || !l.entries || !links;
-    for (int k = 0; k < how->threads && !failed; k++)
-        failed = exchange_scratch_open(&l.scratch[k], &m->limits) < 0;
-    failed = ranks_any(m->ranks, failed);
-    if (!failed) {
+    int status = ranks_any(m->ranks, !links) ? -1 : 0;
+    if (status == 0) {
         struct exchange_tiles t = exchange_tiles(m, refinement);
         for (size_t i = 0; exchange_tiles_next(&t); i++)
             links[i] = t.link;
-        (void)list_entries(m, refinement, off, l.entries);
-        failed = look_at_all(&l, count, how, links) < 0;
+        status = look_again(m, (const struct link *const *)links, off, how);
     }
-    for (size_t i = 0; i < count && !failed; i++) {
-        const struct entry *e = &l.entries[i];
-        const struct element *elements = m->tree->h.elements;
-        struct exchange_block *b = &m->blocks[e->block];
-        m->values[e->at] = e->value;
-        b->error =
-            fmax(b->error, e->error / fmin(elements[e->receiver].area, elements[e->emitter].area));
-    }
-    for (int k = 0; k < how->threads && l.scratch; k++)
-        exchange_scratch_close(&l.scratch[k]);
-    free(l.scratch);
-    free(l.entries);
     free(links);
-    return failed ? -1 : 0;
+    return status;
 }

@@ -9,7 +9,7 @@
 
 #include "engine/exchange_state.h"
 #include "kernel/hash.h"
-#include "runtime/make_polygons.h"
+#include "runtime/make_tables.h"
 #include "suite.h"
 
 /* A state. */
@@ -24,6 +24,8 @@ struct run {
     struct kept *to;         /* empty */
     size_t at;               /* in `from` */
     int asked, stop_at;      /* the how manieth time it is asked; 0: never */
+    const char *stop_in;     /* in this phase; NULL: in any */
+    int in;                  /* the work is in that phase */
     int whole;               /* `to` is there */
     int resumed;             /* it was told, so often */
     int mend;                /* checks that are read are right, whatever stands before them */
@@ -47,7 +49,8 @@ static size_t read_run(void *user, void *bytes, size_t size)
 static enum RadStateWish ask_run(void *user)
 {
     struct run *r = user;
-    return ++r->asked == r->stop_at ? RAD_STATE_STOP : RAD_STATE_NONE;
+    r->asked += !r->stop_in || r->in;
+    return r->asked == r->stop_at ? RAD_STATE_STOP : RAD_STATE_NONE;
 }
 
 static int write_run(void *user, const void *bytes, size_t size)
@@ -71,6 +74,7 @@ static int watch(void *user, const struct RadProgress *at)
 {
     struct run *r = user;
     r->resumed += strcmp(at->phase, "resumed") == 0;
+    r->in = r->stop_in && strcmp(at->phase, r->stop_in) == 0;
     return 0;
 }
 
@@ -118,18 +122,8 @@ static const double TOLERANCE = 3e-3;
 
 static struct work begin(int threads)
 {
-    static const struct RadMaterial grey = {.reflectance = {.5, .5, .5}};
-    const struct RadPolygons polygons = {.positions = scene.positions,
-                                         .position_count = scene.positions_used,
-                                         .indices = scene.indices,
-                                         .sizes = scene.sizes,
-                                         .materials = scene.materials,
-                                         .count = scene.faces};
     struct work w = {.device = radNewDevice(&(struct RadDeviceOptions){.threads = threads})};
-    w.scene = radNewScene(w.device);
-    ck_assert_int_eq(radSetSceneMaterials(w.scene, &grey, 1), 0);
-    ck_assert_int_eq(radSetSceneSharedPolygons(w.scene, &polygons), 0);
-    ck_assert_msg(radCommitScene(w.scene) == 0, "%s", radGetDeviceErrorMessage(w.device));
+    w.scene = scene_on(w.device);
     w.oracle = radNewExchangeOracle(w.device, TOLERANCE);
     /* groups, and faces in parts: all that there is to a state */
     ck_assert_int_eq(radSetOracleParameter(w.oracle, "from_faces", 2), 0);
@@ -227,6 +221,33 @@ START_TEST(test_any_place)
     ck_assert_uint_gt(most.queue, 100);
     ck_assert_uint_gt(most.lists, 10);
     ck_assert_uint_gt(most.splits, 1);
+}
+END_TEST
+
+/* Put down while rows that were off are looked at again: nothing of that is in it. */
+START_TEST(test_again)
+{
+    struct kept state = {0};
+    struct run down = {.to = &state, .stop_at = 1, .stop_in = "again"}, on = {.from = &state},
+               whole = {0};
+    furnish(OFF, 0);
+    struct work w = {.device = radNewDevice(&(struct RadDeviceOptions){.threads = 2})};
+    const struct RadExchangeOptions how = {.tolerance = 3e-4};
+    w.scene = scene_on(w.device);
+    RadExchange x = compute(&w, &whole, how);
+    ck_assert_ptr_nonnull(x);
+    result_of(x, &first);
+    radReleaseExchange(x);
+    ck_assert_ptr_null(compute(&w, &down, how));
+    ck_assert_int_eq(radGetDeviceError(w.device), RAD_ERROR_CANCELLED);
+    ck_assert_int_eq(down.whole, 1);
+    x = compute(&w, &on, how);
+    ck_assert_ptr_nonnull(x);
+    result_of(x, &second);
+    radReleaseExchange(x);
+    compare("again", 1);
+    forget(&state);
+    end(&w);
 }
 END_TEST
 
@@ -418,6 +439,7 @@ int main(void)
     tcase_set_timeout(tcase, thorough() ? 600 : 60);
     tcase_add_test(tcase, test_any_place);
     tcase_add_test(tcase, test_every_place);
+    tcase_add_test(tcase, test_again);
     tcase_add_loop_test(tcase, test_damaged, 0, 2);
     tcase_add_test(tcase, test_other_work);
     tcase_add_test(tcase, test_full_disk);

@@ -46,8 +46,8 @@ static inline void rectangle(const double at[3], const double u[3], const double
     end_face(4);
 }
 
-/* The first rows of the matrix, [rows][scene.faces], and all areas. */
-static inline void factors(uint32_t rows, double tolerance, double *f, double *areas)
+/* The polygons put together so far, grey, committed. */
+static inline RadScene scene_on(RadDevice device)
 {
     const struct RadMaterial grey = {.reflectance = {.5, .5, .5}};
     const struct RadPolygons polygons = {.positions = scene.positions,
@@ -56,12 +56,19 @@ static inline void factors(uint32_t rows, double tolerance, double *f, double *a
                                          .sizes = scene.sizes,
                                          .materials = scene.materials,
                                          .count = scene.faces};
-    const struct RadExchangeOptions how = {.tolerance = tolerance};
-    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 1});
     RadScene s = radNewScene(device);
     ck_assert_int_eq(radSetSceneMaterials(s, &grey, 1), 0);
     ck_assert_int_eq(radSetSceneSharedPolygons(s, &polygons), 0);
     ck_assert_msg(radCommitScene(s) == 0, "%s", radGetDeviceErrorMessage(device));
+    return s;
+}
+
+/* The first rows of the matrix, [rows][scene.faces], and all areas. */
+static inline void factors(uint32_t rows, double tolerance, double *f, double *areas)
+{
+    const struct RadExchangeOptions how = {.tolerance = tolerance};
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 1});
+    RadScene s = scene_on(device);
     RadExchange exchange = radNewExchange(s, NULL, &how);
     ck_assert_msg(exchange != NULL, "%s", radGetDeviceErrorMessage(device));
     memcpy(areas, radGetScenePolygonAreas(s), scene.faces * sizeof *areas);
