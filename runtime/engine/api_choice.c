@@ -20,6 +20,7 @@
  * choice is the same on any machine, and on any number of them. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdlib.h>
 #include "engine/api.h"
 #include "util/clock.h"
 
@@ -41,6 +42,7 @@ struct choosing {
     struct RadSolveOptions options;
     struct RadChoiceOptions wishes;
     struct RadChoice so_far;
+    double *uncovered; /* [face], handed from solution to solution (engine/problem.h) */
 };
 
 /* Solve with links, or without any: *solution. A limit on pairs above 0 may be met. Returns 0, 1
@@ -62,12 +64,14 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
     RadSolution s = radNewSolution(x->scene, x->oracle, &options);
     if (!s)
         return -1;
+    s->solve.problem.options.uncovered = x->uncovered;
     int status = 0;
     if (x->wishes.begin && x->wishes.begin(x->wishes.user, s, &x->so_far) != 0)
         status = api_fail(x->scene->device, RAD_ERROR_CANCELLED,
                           "given up by whoever wanted to begin it");
     if (status == 0)
         status = api_solve(s, limited);
+    s->solve.problem.options.uncovered = NULL;
     if (status == 0)
         *solution = s;
     else
@@ -105,7 +109,9 @@ static int solve_without(struct choosing *x, double *pairs, RadSolution *solutio
     return 0;
 }
 
-/* With coarse links, or with none where these cost too much. Returns 0, or -1. */
+/* With coarse links, or with none where these cost too much. One solution is held at a time, as of
+ * large scenes each takes much memory: the one without links goes before links are tried, and is
+ * made again where these cost too much. Returns 0, or -1. */
 static int solve_coarse(struct choosing *x, RadSolution *solution)
 {
     const struct RadSolveOptions *o = &x->options;
@@ -113,23 +119,27 @@ static int solve_coarse(struct choosing *x, RadSolution *solution)
                             && o->solver == RAD_SOLVER_GAUSS_SEIDEL && !(o->tolerance > 0)
                             && o->basis == RAD_BASIS_LINEAR;
     struct RadReport r;
-    RadSolution without;
     double pairs;
     int status = solve(x, COARSE, may_be_none ? FEW : 0, solution);
     if (status <= 0)
         return status;
-    if (solve_without(x, &pairs, &without) < 0)
+    if (solve_without(x, &pairs, solution) < 0)
         return -1;
-    status = pairs > FEW ? solve(x, COARSE, pairs, solution) : 1;
-    if (status > 0) {
-        *solution = without;
-        x->so_far.no_links = 1;
-        x->so_far.scale = 1;
-        return radScaleOracle(x->oracle, 1) < 0 ? -1 : 0;
-    }
-    radGetReport(without, &r);
+    x->so_far.no_links = 1;
+    if (!(pairs > FEW))
+        return 0;
+    const struct ray_split places = (*solution)->places;
+    radGetReport(*solution, &r);
     x->so_far.seconds += r.seconds.build + r.seconds.refine + r.seconds.iterate;
-    radReleaseSolution(without);
+    radReleaseSolution(*solution);
+    x->so_far.no_links = 0;
+    status = solve(x, COARSE, pairs, solution);
+    if (status <= 0)
+        return status;
+    x->so_far.no_links = 1;
+    status = solve(x, 1, 0, solution);
+    if (status == 0)
+        (*solution)->places = places;
     return status;
 }
 
@@ -171,9 +181,17 @@ RadSolution radSolveScene(RadScene scene, RadOracle oracle, const struct RadSolv
                  x.options.unit ? "unit" : "no_links");
         return NULL;
     }
+    const uint32_t faces = scene->scene.face_count;
+    x.uncovered = malloc(faces * sizeof *x.uncovered); /* NULL: found anew each time */
+    for (uint32_t i = 0; x.uncovered && i < faces; i++)
+        x.uncovered[i] = NAN;
     /* nothing can be coarser or finer of an oracle without thresholds */
     const int count = radScaleOracle(oracle, 1);
-    if (count < 0 || (count > 0 ? choose(&x, &solution) : solve(&x, 1, 0, &solution)) < 0)
+    const int status = count < 0   ? -1
+                       : count > 0 ? choose(&x, &solution)
+                                   : solve(&x, 1, 0, &solution);
+    free(x.uncovered);
+    if (status < 0)
         return NULL;
     if (choice)
         *choice = x.so_far;

@@ -34,7 +34,10 @@ struct solve_options {
     int unit;      /* ignore the materials: every face has B = 1 and stays so (view factors) */
     int all_sides; /* sides that no light comes to are not told apart (lit_faces.h) */
     struct limits limits; /* of refinement */
-    struct ranks *ranks;  /* processes that solve it together, all with these options; NULL: one */
+    /* [face_count]: how much of each face nothing stands on, as far as solutions of the same scene
+     * have found it, else NAN; refinement adds to it. NULL: nobody keeps it */
+    double *uncovered;
+    struct ranks *ranks; /* processes that solve it together, all with these options; NULL: one */
     /* NULL: none; nonzero cancels */
     int (*progress)(void *context, const struct solve *solve, const char *phase);
     void *context; /* of progress */

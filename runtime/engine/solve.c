@@ -80,7 +80,14 @@ struct contacts {
     double *uncovered; /* [element] */
     uint32_t first;    /* the first of them */
     int known;         /* those of 1 */
+    double *kept;      /* [face]: of whole faces, or NAN; NULL: none is kept */
 };
+
+/* Is it known of this element from another solution? */
+static int is_kept(const struct contacts *c, const struct element *e)
+{
+    return c->kept && e->depth == 0 && !isnan(c->kept[e->face]);
+}
 
 static void measure_leaves(const void *contacts, size_t from, size_t to)
 {
@@ -89,8 +96,20 @@ static void measure_leaves(const void *contacts, size_t from, size_t to)
         const struct element *e = &c->h->elements[i];
         if (!e->vertices || e->children || (c->known && c->uncovered[i] >= 1))
             continue;
-        c->uncovered[i] =
-            c->h->faces[e->face].light == FACE_DARK ? 0 : 1 - contact_fraction(c->rays, c->h, e);
+        c->uncovered[i] = is_kept(c, e) ? c->kept[e->face]
+                          : c->h->faces[e->face].light == FACE_DARK
+                              ? 0
+                              : 1 - contact_fraction(c->rays, c->h, e);
+    }
+}
+
+static void keep_faces(const struct contacts *c)
+{
+    const struct hierarchy *h = c->h;
+    for (uint32_t i = 0; c->kept && i < h->face_count; i++) {
+        const uint32_t element = h->face_element[i];
+        if (element >= c->first && !h->elements[element].children)
+            c->kept[i] = c->uncovered[element];
     }
 }
 
@@ -131,12 +150,13 @@ void solve_measure_contact(struct solve *s, uint32_t first, int known)
     const struct hierarchy *h = &s->hierarchy;
     const struct problem *p = &s->problem;
     double *uncovered = s->operator.uncovered;
-    const struct contacts contacts = {h, p->rays, uncovered, first, known};
+    const struct contacts contacts = {h, p->rays, uncovered, first, known, p->options.uncovered};
     if (s->quarters.common) /* here each rank has others */
         thread_pool_run(p->options.threads, h->count - first, 64, measure_leaves, &contacts);
     else
         ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
                        measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
+    keep_faces(&contacts);
     measure_parents(&contacts, p->options.threads);
 }
 
