@@ -136,7 +136,7 @@ halves are added | runtime/engine/face_error.c | s/x\[i + step\] = a - b/x[i + s
 links at any price | runtime/engine/api_choice.c | s/may_be_none ? FEW : 0/0 * FEW/ | solver/check_coarse_first runtime/check_choice
 scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(oracle->set\[i\]/near = p->integer ? round(refiner_get(oracle->refiner, i)/; s/: oracle->set\[i\] \* times/: refiner_get(oracle->refiner, i) * times/ | runtime/check_choice
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice
-a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, dear)/api_solve(s, 0)/ | runtime/check_choice
+a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
 emitters of one leaf | runtime/engine/detail.c | s/failed = h->elements\[i\].vertices \&\& /failed = h->elements[i].vertices \&\& !(s->problem.exitance[h->elements[i].face * s->problem.bands] > 0) \&\& / | runtime/check_ambient
