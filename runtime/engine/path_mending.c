@@ -28,12 +28,13 @@ static int agree(const struct solve *s, const struct tally *particles, const str
     return off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);
 }
 
-static uint32_t faces_that_reflect(const struct path_tally *y)
+/* Rays of a first look by paths, about. */
+static double rays_of_look(const struct tracer *t)
 {
-    uint32_t count = 0;
-    for (uint32_t f = 0; f < y->paths.faces; f++)
-        count += y->paths.share[f] > 0;
-    return count;
+    uint32_t faces = 0;
+    for (uint32_t f = 0; f < t->hierarchy->face_count; f++)
+        faces += tracer_reflectance(t, f) * tracer_surface(t, f)->area > 0;
+    return (double)PATH_BLOCK * RAYS_OF_PATH * faces;
 }
 
 int path_mending_trace(struct path_tally *y, const struct solve *s, const struct tracer *t,
@@ -42,13 +43,13 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
 {
     const double most = (double)goal->most;
     double times, alone, paths = 1;
-    if (mended_error_times(s, tally, goal, &times, &alone) < 0
-        || path_tally_open(y, t, path_mending_stream(0)) < 0)
+    if (mended_error_times(s, tally, goal, &times, &alone) < 0)
         return -1;
-    const double cost = alone * (double)tally->rays,
-                 look = (double)PATH_BLOCK * RAYS_OF_PATH * faces_that_reflect(y);
-    if (!(fmin(cost, most) > PATHS_LOOK * look))
+    const double cost = alone * (double)tally->rays;
+    if (!(fmin(cost, most) > PATHS_LOOK * rays_of_look(t)))
         return 0;
+    if (path_tally_open(y, t, path_mending_stream(0)) < 0)
+        return -1;
     for (int first = 1;; first = 0) {
         if (path_tally_trace(y, t, s->state.irradiance, (uint64_t)paths, watch) < 0
             || mended_error_times(s, &y->tally, goal, &times, &alone) < 0)
