@@ -3,7 +3,11 @@
  * Both sides are unnamed temporary files, so that no pipe can fill up and nothing is left behind.
  * SPDX-License-Identifier: MIT */
 #include <errno.h>
+#include <signal.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +20,9 @@ static int run_dot(FILE *from, FILE *to)
 {
     pid_t child = fork();
     if (child == 0) {
+#ifdef __linux__
+        prctl(PR_SET_PDEATHSIG, SIGTERM); /* whoever is killed wants no drawing any more */
+#endif
         if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
             execlp("dot", "dot", "-Tsvg", (char *)NULL);
         _exit(NOT_RUN);

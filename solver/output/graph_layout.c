@@ -7,9 +7,13 @@
  * SPDX-License-Identifier: MIT */
 #include <errno.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -77,6 +81,9 @@ static int run_dot(FILE *from, FILE *to)
 {
     pid_t child = fork();
     if (child == 0) {
+#ifdef __linux__
+        prctl(PR_SET_PDEATHSIG, SIGTERM); /* whoever is killed wants no drawing any more */
+#endif
         if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
             execlp("dot", "dot", "-Tjson0", (char *)NULL);
         _exit(NOT_RUN);

@@ -38,6 +38,20 @@ wait $job && grep -q "^bf: proved" said || wrong "--prove under nohup: $(tail -n
 [ -z "$(ls -A scratch)" ] || wrong "--prove under nohup left $(ls -A scratch)"
 unset CC
 
+# ---- a Graphviz that takes its time ends with whoever asked for it, however that is ended
+if [ "$(uname)" = Linux ]; then
+    mkdir slow
+    printf '#!/bin/sh\necho $$ >%s/dot.pid\nexec sleep 60\n' "$tmp" >slow/dot && chmod +x slow/dot
+    count=$((count + 1))
+    PATH=$tmp/slow:$PATH "$dagc" -Wno-all --emit=svg -o o/a.svg "$oracle" >said 2>&1 &
+    job=$!
+    for i in 1 2 3 4 5 6 7 8 9; do [ -s dot.pid ] || sleep 0.2; done
+    kill -KILL $job
+    for i in 1 2 3 4 5 6 7 8 9; do ! kill -0 "$(cat dot.pid)" 2>err || sleep 0.2; done
+    ! kill -0 "$(cat dot.pid)" 2>err || wrong "dot goes on when dagc is killed"
+    rm -f err o/*
+fi
+
 # ---- -o, stopped at any moment
 set -- -Wno-all --instrument -o o/a.c --header o/a.h "$top/examples/oracles/power.dag"
 begin=$(date +%s.%N)
