@@ -138,6 +138,9 @@ scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(o
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice
 a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
+light goes through solids | runtime/engine/exchange_sight.c | s/l->joined && bodies_hold/l->on == UINT32_MAX && bodies_hold/ | runtime/check_stacked
+houses are solid | runtime/hierarchy/bodies.c | s/if (!is_lining(s, mates, b->feet\[i\].solid))/if (b->feet[i].solid != UINT32_MAX)/ | runtime/check_stacked
+tubes are solid | runtime/hierarchy/bodies.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
 emitters of one leaf | runtime/engine/detail.c | s/failed = h->elements\[i\].vertices \&\& /failed = h->elements[i].vertices \&\& !(s->problem.exitance[h->elements[i].face * s->problem.bands] > 0) \&\& / | runtime/check_ambient
 corners below what is emitted | runtime/engine/linear_solution.c | s/x->means->value\[at\] - emitted/x->means->value[at] - 0 * emitted/ | runtime/check_measured_error

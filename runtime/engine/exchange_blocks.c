@@ -58,8 +58,9 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
     if (exchange_link_proved(link) && !r->group && !s->group) {
-        double e = r->area * link_factor(pair, link), least = fmin(r->area, s->area);
-        *out = e < least ? e : least;
+        const double e = r->area * link_factor(pair, link), least = fmin(r->area, s->area);
+        const int covered = p->covered[pair->rows.from] || p->covered[pair->columns.from];
+        *out = covered ? 0 : fmin(e, least);
         return 0;
     }
     if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */

@@ -10,6 +10,7 @@
  * Invariant: none above the smaller area.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
+#include <string.h>
 #include "engine/exchange_clear.h"
 #include "engine/face_rule.h"
 #include "kernel/constants.h"
@@ -32,7 +33,8 @@ int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
 {
     uint32_t n = t->h.face_count;
     p->all = malloc((5 + MOMENTS) * (size_t)n * sizeof *p->all);
-    if (!p->all)
+    p->covered = malloc((size_t)n + 1);
+    if (!p->all || !p->covered)
         return -1;
     clear_rules_open(p->rules);
     for (int k = 0; k < 3; k++)
@@ -70,6 +72,7 @@ int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
         for (int k = 0; k < 3; k++)
             p->c[k][i] = e->centre[k];
         p->area[i] = e->area;
+        p->covered[i] = (unsigned char)bodies_cover(&t->bodies, &t->h, t->h.face_element[e->face]);
         p->lopsided[i] = lopsided(e);
         for (int k = 0; k < MOMENTS; k++)
             p->moment[k][i] = moment[k];
@@ -80,6 +83,7 @@ int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
 void exchange_faces_close(struct exchange_faces *p)
 {
     free(p->all);
+    free(p->covered);
 }
 
 /* Points of a face, for kernels, and how much of it each stands for. */
@@ -382,6 +386,10 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
     const struct face_range range = column ? pair->rows : pair->columns;
     const double turned[3] = {-other->normal[0], -other->normal[1], -other->normal[2]},
                  m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
+    if (p->covered[i]) {
+        memset(out, 0, (range.to - range.from) * sizeof *out);
+        return;
+    }
     const int cut = crosses(exchange_tree_face(pair->tree, i), other, pair->tree->host.flat);
     struct kernel_rule rule = {.count = 0};
     second_order_row(p, i, own->normal, range, turned, tolerance, line, out);
@@ -406,6 +414,9 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
         }
         out[j - range.from] = e > 0 ? fmin(e, fmin(a->area, b->area)) : 0;
     }
+    for (uint32_t j = range.from; j < range.to; j++)
+        if (p->covered[j])
+            out[j - range.from] = 0;
 }
 
 void clear_line(const struct exchange_faces *p, const struct exchange_pair *pair, double tolerance,

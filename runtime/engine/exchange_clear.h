@@ -18,6 +18,7 @@ struct exchange_faces {
     double *lopsided;        /* how large third moments are: 0 to 1 */
     double *moment[MOMENTS]; /* mean of d d over the face, d from the centroid (m2) */
     double *all;             /* where they stand */
+    unsigned char *covered;  /* 1: solids stand on all of it, so that it sees nothing */
     struct clear_rule rules[2];
 };
 

@@ -57,6 +57,8 @@ struct looking {
     int nodes, roots, heap;
     int cast;             /* of the nodes, by rays */
     int by_bodies;        /* 1: what is in scratch->between is in scratch->bodies */
+    int joined;           /* 1: a solid that stands on `from` touches `to`, or holds it */
+    uint32_t on;          /* the element that `from` is, or is part of */
     int shared;           /* 1: scratch->between is the pair's, and does for all pieces */
     int between_of;       /* else: the node that it is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
@@ -179,7 +181,8 @@ static int place_between(struct looking *l)
  * shadows, unless rounding leaves open where these run. Else outlines save most where faces go on
  * into each other; faces by themselves, and bent ones, are cut out one by one. Many faces leave
  * parts that each meet few of them, and many edges part what is hidden, too. */
-static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
+static double past_faces(const struct looking *l, const double x[3], const double n[3],
+                         double *whole)
 {
     struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
@@ -194,6 +197,16 @@ static double past(const struct looking *l, const double x[3], const double n[3]
     return !b->bent && 2 * b->edges <= most * b->faces
                ? sight_past(&l->sight, x, n, up, b, whole)
                : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
+}
+
+/* Faces in the plane of an end stand before nothing there, as rays start beyond them. A solid that
+ * joins both ends has one in the plane of each, and from where it stands only its sides would stop
+ * what goes through it; so points in it see nothing. */
+static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
+{
+    const double seen = past_faces(l, x, n, whole), up = l->tree->host.ray_offset;
+    const double over[3] = {x[0] + up * n[0], x[1] + up * n[1], x[2] + up * n[2]};
+    return l->joined && bodies_hold(&l->tree->bodies, &l->tree->h, l->on, over) ? 0 : seen;
 }
 
 /* What the points within a piece see of the other face, and would; `rim`: those on its rim. Returns
@@ -568,6 +581,10 @@ static int is_faint(const struct sight_limits *limits, double clear, double leas
     return clear <= FAINT * limits->tolerance * limits->floor * least;
 }
 
+/* How near two planes are to be one, by offsets of rays: ends are moved off by one, and what is
+ * nearer stands before nothing. */
+static const double JOINED = 4;
+
 double sight_pair(const struct element *r, const struct element *s, const struct exchange_tree *t,
                   const struct sight_list *among, struct sight_scratch *scratch, int again,
                   double *error)
@@ -575,10 +592,12 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     const int believes = scratch->limits.many && !again;
     double least = fmin(r->area, s->area);
     const struct host *host = &t->host;
+    const uint32_t on_r = t->h.face_element[r->face], on_s = t->h.face_element[s->face];
     uint32_t own[SIGHT_LIST];
     struct shaft shaft;
     *error = 0;
-    if (!shaft_open(&shaft, r, s, host))
+    if (bodies_cover(&t->bodies, &t->h, on_r) || bodies_cover(&t->bodies, &t->h, on_s)
+        || !shaft_open(&shaft, r, s, host))
         return 0;
     int count = among ? sight_list_near(among, t, &shaft, own)
                       : host->candidates(host, &shaft, SIGHT_LIST, own);
@@ -601,9 +620,16 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     double sway_r = many ? -r->radius : sway(r, t, own, count),
            sway_s = many ? -s->radius : sway(s, t, own, count);
     int from_r = sway_r < sway_s || (sway_r == sway_s && r->id < s->id);
+    const double near = JOINED * host->ray_offset;
+    const int joins_r = bodies_join(&t->bodies, &t->h, on_r, s, near),
+              joins_s = bodies_join(&t->bodies, &t->h, on_s, r, near);
+    if (joins_r != joins_s)
+        from_r = joins_r;
     struct looking l = {.tree = t,
                         .from = from_r ? r : s,
                         .to = from_r ? s : r,
+                        .joined = joins_r || joins_s,
+                        .on = from_r ? on_r : on_s,
                         .scratch = scratch,
                         .believes = believes};
     struct polygon part, seen;

@@ -8,6 +8,9 @@
 /* the most faces of a body: of more, outlines are found edge by edge */
 enum { BODY_FACES = 32, BODY_CORNERS = 4 * BODY_FACES, BODY_EDGES = BODY_CORNERS, BODY_LIDS = 4 };
 
+/* a share of a face that is rounding */
+#define BODY_WHOLLY 1e-9
+
 /* From a corner to another, by their places among the body's, and the sides at it, by theirs, lids
  * behind those with faces: the left one is on the left as seen from outside. */
 struct body_edge {
@@ -26,9 +29,19 @@ struct body {
     uint8_t faces, corners, edges, lids;
 };
 
+/* A body stands on the front of a face, an element that is part of what stands in shafts, on so
+ * much of it (m2); with a face of its own, UINT32_MAX where it has none there. */
+struct body_foot {
+    uint32_t on, solid, body, face;
+    double area;
+};
+
 struct bodies {
     uint32_t *of;    /* [built]: 1 more than the body that an element is a face of; 0: of none */
     double *covered; /* [built]: of a face's front, by bodies that stand on it (m2) */
+    double *shut;    /* [built]: of that, what bodies have a face on, which light meets (m2) */
+    struct body_foot *feet; /* [feet_count]: ascending by `on`, then by the body */
+    size_t feet_count, feet_room;
     struct body *body;
     uint32_t *faces;
     double (*corners)[3];
@@ -39,5 +52,22 @@ struct bodies {
 /* Of a hierarchy with groups. Returns 0, or -1 when out of memory; close is fine then too. */
 int bodies_open(struct bodies *bodies, const struct hierarchy *h, const struct mates *mates);
 void bodies_close(struct bodies *bodies);
+
+/* Is a point that is a little above the front of an element in a body that stands on it with a
+ * face? Nothing sees it. */
+int bodies_hold(const struct bodies *bodies, const struct hierarchy *h, uint32_t element,
+                const double p[3]);
+
+/* Does a body that stands on it with a face touch another element, which looks into it there, but
+ * for so much (m), or hold some of it? */
+int bodies_join(const struct bodies *bodies, const struct hierarchy *h, uint32_t element,
+                const struct element *other, double near);
+
+/* Do faces of bodies lie on all of its front, but for rounding? */
+static inline int bodies_cover(const struct bodies *bodies, const struct hierarchy *h,
+                               uint32_t element)
+{
+    return bodies->shut[element] > (1 - BODY_WHOLLY) * h->elements[element].area;
+}
 
 #endif

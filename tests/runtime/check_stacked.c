@@ -1,0 +1,139 @@
+/* check_stacked.c - solids between faces: a box on another box on a floor, a post with or without
+ * ends between two boards, a house of outer and inner walls in the same planes.
+ *
+ * All values are known: what lies under a solid with a face there sees nothing, what is joined by a
+ * tube without ends sees through it, and closed rooms sum to what is not covered of them.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include "radiosity.h"
+#include "runtime/make_polygons.h"
+#include "suite.h"
+
+/* The six sides of a box, seen from outside or, with inside, from there: bottom, top, x, y. Sides
+ * left out are set in `without`. */
+static void box(const double low[3], const double high[3], int inside, unsigned without)
+{
+    static const int axis[6] = {2, 2, 0, 0, 1, 1};
+    for (int side = 0; side < 6; side++) {
+        const int k = axis[side], up = side % 2, i = (k + 1) % 3, j = (k + 2) % 3;
+        double at[3] = {low[0], low[1], low[2]}, u[3] = {0, 0, 0}, v[3] = {0, 0, 0};
+        if (without >> side & 1)
+            continue;
+        at[k] = up ? high[k] : low[k];
+        u[i] = high[i] - low[i];
+        v[j] = high[j] - low[j];
+        rectangle(at, up != inside ? u : v, up != inside ? v : u);
+    }
+}
+
+/* A floor of n x n tiles, and the walls and the ceiling of a room. */
+static void room(double wide, double tall, int n)
+{
+    const double low[3] = {0, 0, 0}, high[3] = {wide, wide, tall}, u[3] = {wide / n, 0, 0},
+                 v[3] = {0, wide / n, 0};
+    for (int i = 0; i < n * n; i++) {
+        const double at[3] = {i % n * u[0], i / n * v[1], 0};
+        rectangle(at, u, v);
+    }
+    box(low, high, 1, 1);
+}
+
+static double row_sum(const double *f, uint32_t row)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < scene.faces; i++)
+        sum += f[(size_t)row * scene.faces + i];
+    return sum;
+}
+
+/* Two boxes on a floor of n x n tiles, the upper one smaller, or so much above the lower one. */
+static const struct {
+    int tiles;
+    double less, gap;
+} stack[] = {{1, 0, 0},    {1, 0.1, 0},  {3, 0, 0},      {3, 0.1, 0},   {1, 0.1, 1e-8},
+             {3, 0, 1e-8}, {1, 0, 1e-6}, {1, 0.1, 1e-5}, {3, 0.1, 1e-6}};
+
+START_TEST(test_boxes)
+{
+    static double f[FACES * FACES], area[FACES];
+    const int n = stack[_i].tiles, lower = n * n + 5, upper = lower + 6;
+    const double less = stack[_i].less, from = 0.3 + stack[_i].gap,
+                 low[2][3] = {{1, 1, 0}, {1 + less, 1 + less, from}},
+                 high[2][3] = {{2, 2, 0.3}, {2 - less, 2 - less, from + 0.3}};
+    double floor = 0;
+    clear();
+    room(3, 2, n);
+    for (int i = 0; i < 2; i++)
+        box(low[i], high[i], 0, 0);
+    factors(scene.faces, 0, f, area);
+    for (int i = 0; i < n * n; i++) {
+        floor += area[i] / 9 * row_sum(f, (uint32_t)i);
+        ck_assert_double_le(f[(size_t)i * scene.faces + (size_t)upper], 3e-4);
+    }
+    ck_assert_double_eq_tol(floor, 8.0 / 9, 3e-4);
+    /* a gap is a contact, or all that is seen across it is what is below */
+    const double below = f[(size_t)upper * scene.faces + (size_t)lower + 1];
+    ck_assert_double_eq_tol(row_sum(f, (uint32_t)upper), below, 3e-4);
+    ck_assert_double_eq_tol(below, below > 0.5 && stack[_i].gap > 0, 3e-4);
+    ck_assert_double_eq_tol(row_sum(f, (uint32_t)lower), 0, 3e-4);
+    for (int i = lower + 2; i < upper; i++)
+        ck_assert_double_eq_tol(row_sum(f, (uint32_t)i), 1, 3e-4);
+}
+END_TEST
+
+/* What two boards exchange past a post of .2 x .2 between them, .5 apart. */
+static double past_post(int ends)
+{
+    static double f[FACES], area[FACES];
+    const double low[3] = {1.4, 1.4, 0}, high[3] = {1.6, 1.6, 0.5}, o[3] = {0, 0, 0},
+                 top[3] = {1, 1, 0.5}, x[3] = {3, 0, 0}, y[3] = {0, 3, 0}, u[3] = {1, 0, 0},
+                 v[3] = {0, 1, 0};
+    clear();
+    rectangle(o, x, y);
+    rectangle(top, v, u);
+    box(low, high, 0, ends ? 0 : 3);
+    factors(1, 1e-5, f, area);
+    return f[1];
+}
+
+/* Without ends it is a tube, through which the squares at its ends see each other: Howell's
+ * catalog, C-11. */
+START_TEST(test_post)
+{
+    const double x = 0.2 / 0.5, k = 1 + x * x, pi = 3.14159265358979323846,
+                 square = 2 / (pi * x * x)
+                          * (0.5 * log(k * k / (1 + 2 * x * x))
+                             + 2 * x * sqrt(k) * atan(x / sqrt(k)) - 2 * x * atan(x));
+    ck_assert_double_eq_tol(past_post(0) - past_post(1), 0.04 / 9 * square, 2e-6);
+}
+END_TEST
+
+/* An inner room whose walls lie in an outer box's planes, all of them or four or two. */
+START_TEST(test_house)
+{
+    static const double inner[3][2][3] = {
+        {{1, 1, 1}, {2, 2, 2.2}}, {{1, 1, 1.1}, {2, 2, 2}}, {{1, 1.2, 1.1}, {2, 1.8, 2.2}}};
+    static double f[FACES * FACES], area[FACES];
+    const double o[3] = {0, 0, 0}, far[3] = {4, 4, 4}, low[3] = {1, 1, 1}, high[3] = {2, 2, 2.2};
+    clear();
+    box(o, far, 1, 0);
+    box(low, high, 0, 0);
+    box(inner[_i][0], inner[_i][1], 1, 0);
+    factors(scene.faces, 0, f, area);
+    for (uint32_t i = 0; i < scene.faces; i++)
+        ck_assert_double_eq_tol(row_sum(f, i), 1, 3e-4);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("stacked");
+    TCase *t = tcase_create("stacked");
+    tcase_set_timeout(t, 60);
+    tcase_add_loop_test(t, test_boxes, 0, sizeof stack / sizeof *stack);
+    tcase_add_test(t, test_post);
+    tcase_add_loop_test(t, test_house, 0, 3);
+    suite_add_tcase(suite, t);
+    return suite_failures(suite) != 0;
+}
