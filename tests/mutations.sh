@@ -138,7 +138,7 @@ scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(o
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice
 a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
-light goes through solids | runtime/engine/exchange_sight.c | s/l->joined && bodies_hold/l->on == UINT32_MAX && bodies_hold/ | runtime/check_stacked
+light goes through solids | runtime/engine/exchange_sight.c | s/l->joined && bodies_hold/0 * l->joined \&\& bodies_hold/ | runtime/check_stacked
 houses are solid | runtime/hierarchy/bodies.c | s/if (!is_lining(s, mates, b->feet\[i\].solid))/if (b->feet[i].solid != UINT32_MAX)/ | runtime/check_stacked
 tubes are solid | runtime/hierarchy/bodies.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice

@@ -34,12 +34,32 @@ static int by_place(const void *a, const void *b)
     return x[0] < y[0] ? -1 : x[0] > y[0] ? 1 : x[1] < y[1] ? -1 : x[1] > y[1];
 }
 
-/* Does the chain turn left at b, by more than rounding? */
+/* Does an outline turn left at b by more than rounding? */
 static int turns(const double a[2], const double b[2], const double c[2])
 {
     return across(a, b, c) > ROUNDING * (square(a, b) + square(b, c));
 }
 
+/* Without the corners at which it goes straight on. */
+static size_t straighten(double (*hull)[2], size_t n)
+{
+    for (size_t i = 0, kept = 0; n > 2 && kept < n;) {
+        const size_t next = (i + 1) % n;
+        if (turns(hull[i], hull[next], hull[(i + 2) % n])) {
+            i = next;
+            kept++;
+            continue;
+        }
+        memmove(hull[next], hull[next + 1], (n - 1 - next) * sizeof *hull);
+        n--;
+        i = next ? (i + n - 1) % n : n - 1;
+        kept = 0;
+    }
+    return n;
+}
+
+/* Chains turn by however little: of points that share a first coordinate but for rounding, one that
+ * lies beyond the next looks as if it lay between. */
 size_t flat_hull(double (*points)[2], size_t n, double (*hull)[2])
 {
     size_t count = 0, lower = 1;
@@ -48,13 +68,13 @@ size_t flat_hull(double (*points)[2], size_t n, double (*hull)[2])
     qsort(points, n, sizeof *points, by_place);
     for (size_t i = 0; i < 2 * n - 1; i++) {
         const double *p = points[i < n ? i : 2 * n - 2 - i];
-        while (count > lower && !turns(hull[count - 2], hull[count - 1], p))
+        while (count > lower && !(across(hull[count - 2], hull[count - 1], p) > 0))
             count--;
         memcpy(hull[count++], p, sizeof *hull);
         if (i == n - 1)
             lower = count;
     }
-    return count - (count > 1); /* the last is the first */
+    return straighten(hull, count - (count > 1)); /* the last is the first */
 }
 
 double flat_area(const double (*corners)[2], size_t n)

@@ -73,6 +73,23 @@ START_TEST(test_clouds)
 }
 END_TEST
 
+/* Faces in a row, along an axis but for rounding: which of them comes first is chance. */
+START_TEST(test_in_a_row)
+{
+    enum { ROW = 12 };
+    uint64_t state = 77 + (uint64_t)_i;
+    double p[2 * ROW][2], hull[2 * ROW + 1][2];
+    for (int i = 0; i < ROW; i++)
+        for (int side = 0; side < 2; side++) {
+            p[2 * i + side][0] = side - 0.5 + 1e-12 * (chance(&state) - 0.5);
+            p[2 * i + side][1] = (i == 0 ? 0 : i == 1 ? 10 : 10 * chance(&state));
+        }
+    const size_t corners = flat_hull(p, 2 * ROW, hull);
+    ck_assert_double_eq_tol(flat_area((const double(*)[2])hull, corners), 10, 1e-9);
+    ck_assert_uint_eq(corners, 4);
+}
+END_TEST
+
 /* A right triangle has two smallest rectangles; the one along its legs is taken. A gable loses a
  * side; what is left is known. Points on a line have no hull. */
 START_TEST(test_shapes)
@@ -281,6 +298,7 @@ int main(void)
     TCase *c = tcase_create("flat groups");
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, test_clouds, 0, 20);
+    tcase_add_loop_test(c, test_in_a_row, 0, 50);
     tcase_add_test(c, test_shapes);
     tcase_add_loop_test(c, test_cube, 0, 3);
     tcase_add_test(c, test_prisms);

@@ -1,0 +1,88 @@
+/* check_slots.c - view factors through narrow openings, in scenes of more than a few polygons.
+ *
+ * The floor of a pit sees of a ceiling what its mouth leaves. From a point of the floor that is a
+ * rectangle, so right is the mean, over points of the floor, of the factor from a point to a
+ * rectangle across from it. [Howell's catalog, B-3]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include "radiosity.h"
+#include "runtime/make_polygons.h"
+#include "suite.h"
+
+static const double WIDE = 0.4, HIGH = 0.12; /* of the ceiling, and over the mouth (m) */
+
+/* From a point to the rectangle from its foot to (x, y), c across from it. */
+static double corner_factor(double x, double y, double c)
+{
+    const double p = sqrt(x * x + c * c), q = sqrt(y * y + c * c);
+    return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * 3.14159265358979323846);
+}
+
+static double point_factor(const double low[2], const double high[2], double c)
+{
+    return corner_factor(high[0], high[1], c) - corner_factor(low[0], high[1], c)
+           - corner_factor(high[0], low[1], c) + corner_factor(low[0], low[1], c);
+}
+
+/* Of the floor of a pit of that size, below the ceiling, whose middle is off by that. */
+static double right_factor(const double size[2], double deep, const double off[2])
+{
+    enum { N = 400 };
+    double sum = 0;
+    for (int i = 0; i < N * N; i++) {
+        double low[2], high[2];
+        for (int k = 0; k < 2; k++) {
+            const double at = size[k] * ((k ? i / N : i % N) + 0.5) / N - size[k] / 2,
+                         more = (deep + HIGH) / deep;
+            low[k] = fmax((-size[k] / 2 - at) * more, off[k] - WIDE / 2 - at);
+            high[k] = fmin((size[k] / 2 - at) * more, off[k] + WIDE / 2 - at);
+        }
+        sum += point_factor(low, high, deep + HIGH);
+    }
+    return sum / N / N;
+}
+
+static const struct {
+    double size[2], deep, off[2];
+} pit[] = {{{0.005, 0.2}, 0.07, {0, 0}},
+           {{0.005, 0.2}, 0.07, {0.06, 0.01}},
+           {{0.003, 0.1}, 0.07, {0.05, 0}},
+           {{0.01, 0.02}, 0.07, {0.07, 0.07}},
+           {{0.02, 0.2}, 0.1, {-0.06, 0.02}}};
+
+START_TEST(test_pit)
+{
+    enum { OTHERS = 30 };
+    static double f[FACES], area[FACES];
+    const double *size = pit[_i].size, *off = pit[_i].off, deep = pit[_i].deep, x = size[0] / 2,
+                 y = size[1] / 2, w = WIDE / 2, right = right_factor(size, deep, pit[_i].off);
+    const double floor[3] = {-x, -y, -deep}, along[3] = {2 * x, 0, 0}, across[3] = {0, 2 * y, 0},
+                 up[3] = {0, 0, deep}, far[2][3] = {{x, -y, -deep}, {-x, y, -deep}},
+                 ceiling[3] = {off[0] - w, off[1] - w, HIGH}, wide[3] = {2 * w, 0, 0},
+                 long_[3] = {0, 2 * w, 0};
+    clear();
+    rectangle(floor, along, across);
+    rectangle(ceiling, long_, wide);
+    rectangle(floor, across, up);
+    rectangle(far[0], up, across);
+    rectangle(floor, up, along);
+    rectangle(far[1], along, up);
+    for (int i = 0; i < OTHERS; i++) { /* behind it all, facing away */
+        const double at[3] = {-w + 0.01 * i, -w, -1}, u[3] = {0.005, 0, 0}, v[3] = {0, 0.01, 0};
+        rectangle(at, v, u);
+    }
+    factors(1, 0, f, area);
+    ck_assert_double_eq_tol(f[1], right, 3e-4);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("slots");
+    TCase *t = tcase_create("slots");
+    tcase_set_timeout(t, 60);
+    tcase_add_loop_test(t, test_pit, 0, sizeof pit / sizeof *pit);
+    suite_add_tcase(suite, t);
+    return suite_failures(suite) != 0;
+}
