@@ -1199,8 +1199,8 @@ RAD_API int radMultiplyExchange(RadExchange exchange, uint32_t columns, const do
 struct RadExchangeReport {
     uint64_t links, pairs, rays;
     double low, high; /* of all rows' sums, before closure */
-    /* that ought to sum to 1; see the environment; a black back (some both); of the others those
-     * that are covered in part */
+    /* that ought to sum to 1; see the environment; a black back; are covered in part (some are of
+     * several of the last three) */
     uint32_t rows_closed, rows_open, rows_backs, rows_covered;
     double defect_most, defect_mean; /* |1 - sum| of the closed ones, before closure */
     double worst;                    /* the same, and what others have above 1; of which row */

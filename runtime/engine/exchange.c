@@ -146,7 +146,7 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
         share_out(way, 1 - share[i]);
         r->rows_open += (unsigned)open;
         r->rows_backs += (unsigned)backs;
-        r->rows_covered += !closed[i] && !open && !backs;
+        r->rows_covered += way->covered > 0;
         r->environment_mean += m->area[i] * way->leaves;
         r->environment_most = fmax(r->environment_most, way->leaves);
         r->backs_mean += m->area[i] * way->backs;
