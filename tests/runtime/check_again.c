@@ -36,7 +36,8 @@ START_TEST(test_entries)
     static const struct {
         uint64_t room;
         uint32_t leg, cell;
-    } pairs[] = {{0, 133, 88}, {3, 131, 84}, {3, 124, 92}, {4, 131, 84}, {6, 124, 88}};
+    } pairs[] = {{0, 133, 88}, {3, 131, 84}, {3, 124, 92},  {4, 131, 84},  {6, 124, 88},
+                 {0, 157, 64}, {2, 110, 92}, {12, 138, 65}, {12, 130, 65}, {12, 124, 88}};
     static double f[FACES * FACES], areas[FACES];
     static struct judge_polygon all[FACES];
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
