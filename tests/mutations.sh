@@ -139,8 +139,8 @@ smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | ru
 a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
 light goes through solids | runtime/engine/exchange_sight.c | s/l->joined && bodies_hold/0 * l->joined \&\& bodies_hold/ | runtime/check_stacked
-houses are solid | runtime/hierarchy/bodies.c | s/if (!is_lining(s, mates, b->feet\[i\].solid))/if (b->feet[i].solid != UINT32_MAX)/ | runtime/check_stacked
-tubes are solid | runtime/hierarchy/bodies.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
+houses are solid | runtime/hierarchy/body_feet.c | s/if (!is_lining(s, mates, b->feet\[i\].solid))/if (b->feet[i].solid != UINT32_MAX)/ | runtime/check_stacked
+tubes are solid | runtime/hierarchy/body_feet.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
 emitters of one leaf | runtime/engine/detail.c | s/failed = h->elements\[i\].vertices \&\& /failed = h->elements[i].vertices \&\& !(s->problem.exitance[h->elements[i].face * s->problem.bands] > 0) \&\& / | runtime/check_ambient
 corners below what is emitted | runtime/engine/linear_solution.c | s/x->means->value\[at\] - emitted/x->means->value[at] - 0 * emitted/ | runtime/check_measured_error
@@ -182,10 +182,10 @@ floors are of columns | runtime/hierarchy/bodies.c | s/return high > h->flat;/re
 sides have edges within | runtime/hierarchy/bodies.c | s/other < f .. side\[other\] == side\[f\]/other < f/ | runtime/check_standing
 outlines lose corners | runtime/engine/sight_outlines.c | s/cell->n > SIGHT_CELL_MOST/cell->n > 9999/ | runtime/check_outlines
 pieces lose corners | runtime/engine/sight_pieces.c | s/cell->n > SIGHT_CELL_MOST/cell->n > 9999/ | runtime/check_outlines
-bottoms cover nothing | runtime/hierarchy/bodies.c | s/add_cover(s->h, 0, .own, cover, b->covered)/(void)own/ | runtime/check_losses
-any lid is shut | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/1/ | runtime/check_standing
-covers of both sides add up | runtime/hierarchy/bodies.c | s/cover\[0\] >= most .. cover\[1\] >= most/cover[0] + cover[1] >= most/ | runtime/check_standing
-far covers shut | runtime/hierarchy/bodies.c | s/ .. high > most .. low < -most)/)/ | runtime/check_standing
+bottoms cover nothing | runtime/hierarchy/body_feet.c | s/status = add_cover(s->h, 0, 0, .own, cover, .by)/(void)own/ | runtime/check_losses
+any lid is shut | runtime/hierarchy/body_feet.c | s/cover\[0\] >= most .. cover\[1\] >= most/1/ | runtime/check_standing
+covers of both sides add up | runtime/hierarchy/body_feet.c | s/cover\[0\] >= most .. cover\[1\] >= most/cover[0] + cover[1] >= most/ | runtime/check_standing
+far covers shut | runtime/hierarchy/body_feet.c | s/ .. high > most .. low < -most)/)/ | runtime/check_standing
 parts are strangers | runtime/hierarchy/group_hierarchy.c | s/? group_fills(f, e)/? group_tiles(\&b->outliner, f, faces, e)/ | runtime/check_standing
 plates have no backs | runtime/engine/sight_bodies.c | s/0, 1};/0, 0};/ | runtime/check_standing
 great icosahedra are solid | runtime/hierarchy/solids.c | s/if (w->met\[index\] == AT_HAND)/if (0)/ | runtime/check_bodies

@@ -9,34 +9,14 @@
  * no free edge but its lids', no bent face and no face whose front looks inside.
  * [a closed surface that each of its planes supports is its hull's; derived here]
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/bodies.h"
-#include "hierarchy/lids.h"
+#include "hierarchy/body_feet.h"
+#include "hierarchy/polygon.h"
 #include "hierarchy/reach.h"
 #include "kernel/constants.h"
 #include "util/array.h"
-
-static const uint32_t NO_FACE = UINT32_MAX;
-
-/* An edge that nobody of the shell is across: of a face, from its corner to the next one. */
-struct free_edge {
-    int face, lid; /* -1: of none yet */
-    const double *from, *to;
-};
-
-/* A body in the making. */
-struct shell {
-    const struct hierarchy *h;
-    int faces, edges, lids;
-    uint32_t face[BODY_FACES];
-    struct free_edge edge[BODY_CORNERS];
-    struct shell_lid {
-        double corner[BODY_CORNERS][3], normal[3], area, around;
-        int n;
-    } lid[BODY_LIDS];
-};
 
 /* Is the mate across an edge not of the same convex solid? Who has its front on another side or
  * stands in front of the face is what the solid stands on. */
@@ -153,95 +133,6 @@ static int is_convex(const struct shell *s)
     return 1;
 }
 
-/* May faces below an element cover some of a lid? Not where they are elsewhere, or not in its
- * plane: of a group's that is known but for how far its faces reach off it. */
-static int is_near(const struct hierarchy *h, const struct element *e, const struct shell_lid *lid)
-{
-    const double(*v)[3] = (const double(*)[3])lid->corner,
-          most = e->children ? 2 * h->flat : h->flat;
-    double high = 0, low = 0, box[2][3];
-    if (e->vertices) {
-        polygon_reach(v, (uint32_t)lid->n, e->vertex[0], e->normal, &high, &low);
-        if (!(fabs(dot3(e->normal, lid->normal)) > GROUP_COSINE) || high > most || low < -most)
-            return 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        double from = v[0][k], to = from;
-        box[0][k] = e->vertices ? e->centre[k] - e->radius : e->vertex[0][k];
-        box[1][k] = e->vertices ? e->centre[k] + e->radius : e->vertex[1][k];
-        for (int i = 1; i < lid->n; i++) {
-            from = v[i][k] < from ? v[i][k] : from;
-            to = v[i][k] > to ? v[i][k] : to;
-        }
-        if (from > box[1][k] + most || to < box[0][k] - most)
-            return 0;
-    }
-    return 1;
-}
-
-/* What stands on others: a body of these, with that face of its own, or with a lid. */
-struct covering {
-    struct bodies *standing; /* NULL: nothing does, only areas are asked */
-    uint32_t body, face;
-};
-
-/* The body stands on an element's front, on so much of it (m2). Returns 0, or -1 when out of
- * memory. */
-static int add_foot(const struct covering *by, uint32_t on, uint32_t solid, double area)
-{
-    struct bodies *b = by->standing;
-    if (array_reserve(&b->feet, b->feet_count + 1, &b->feet_room, sizeof *b->feet) < 0)
-        return -1;
-    b->feet[b->feet_count++] = (struct body_foot){on, solid, by->body, by->face, area};
-    return 0;
-}
-
-/* What faces below an element, which is part of `solid`, cover of a lid: those that look the same
- * way as it, and the others (m2). Faces that look one way do not lie on each other (overlaps.h).
- * Returns 0, or -1 when out of memory. */
-static int add_cover(const struct hierarchy *h, uint32_t index, uint32_t solid,
-                     const struct shell_lid *lid, double cover[2], const struct covering *by)
-{
-    const struct element *e = &h->elements[index];
-    const double(*v)[3] = (const double(*)[3])lid->corner;
-    struct lid over;
-    if (!is_near(h, e, lid))
-        return 0;
-    if (h->solid[index])
-        solid = index;
-    if (e->children && (by->standing || !h->solid[index])) {
-        for (uint32_t c = 0; c < e->children; c++)
-            if (add_cover(h, e->child + c, solid, lid, cover, by) < 0)
-                return -1;
-        return 0;
-    }
-    const int same = dot3(e->normal, lid->normal) > 0;
-    double sum = 0;
-    lid_of(&over, (const double(*)[3])e->vertex, e->vertices, lid->normal, h->flat);
-    for (int i = 2; i < lid->n; i++) {
-        double part[3][3];
-        memcpy(part[0], v[0], sizeof part[0]);
-        memcpy(part[1], v[i - 1], 2 * sizeof part[0]);
-        sum += lid_area(&over, (const double(*)[3])part, 3, lid->normal);
-    }
-    cover[same] += sum;
-    return by->standing && !same && sum > 0 ? add_foot(by, index, solid, sum) : 0;
-}
-
-/* Are all lids covered, but for what is narrower than faces may reach off their planes? */
-static int is_shut(const struct shell *s)
-{
-    for (int i = 0; i < s->lids; i++) {
-        const struct shell_lid *lid = &s->lid[i];
-        const double most = lid->area - s->h->flat * lid->around;
-        double cover[2] = {0, 0};
-        (void)add_cover(s->h, 0, 0, lid, cover, &(struct covering){0});
-        if (!(cover[0] >= most || cover[1] >= most))
-            return 0;
-    }
-    return 1;
-}
-
 /* The place of a corner among so many, the next one when it is new. Those that faces round apart
  * are two. */
 static int place_of(double (*corners)[3], int count, const double p[3])
@@ -251,103 +142,6 @@ static int place_of(double (*corners)[3], int count, const double p[3])
         at++;
     memcpy(corners[at], p, sizeof corners[at]);
     return at;
-}
-
-/* That share of all faces below an element is covered. */
-static void add_share(struct bodies *b, const struct hierarchy *h, uint32_t index, double share)
-{
-    const struct element *e = &h->elements[index];
-    if (!e->children) {
-        b->covered[index] += share * e->area;
-        b->shut[index] += share * e->area;
-    }
-    for (uint32_t c = 0; c < e->children; c++)
-        add_share(b, h, e->child + c, share);
-}
-
-/* Is all of an element in the solid, or on its surface? */
-static int is_within(const struct shell *s, const struct element *e)
-{
-    for (int side = 0; side < s->faces + s->lids; side++) {
-        const struct element *f = side < s->faces ? &s->h->elements[s->face[side]] : NULL;
-        const struct shell_lid *lid = f ? NULL : &s->lid[side - s->faces];
-        double high = 0, low = 0;
-        polygon_reach((const double(*)[3])e->vertex, e->vertices, f ? f->vertex[0] : lid->corner[0],
-                      f ? f->normal : lid->normal, &high, &low);
-        if (high > s->h->flat)
-            return 0;
-    }
-    return 1;
-}
-
-/* Is the solid hollow there, as a house of outer and inner walls in the same planes? Then the face
- * goes on across some edge into the solid, where the inner walls do, or on another of its sides. */
-static int is_lining(const struct shell *s, const struct mates *mates, uint32_t solid)
-{
-    const struct element *e = &s->h->elements[solid];
-    for (int i = 0; i < e->vertices; i++) {
-        const int64_t mate = mates->of[solid][i];
-        double high = 0, low = 0;
-        int own = 0;
-        if (mate == NO_MATE || mate % 2)
-            continue;
-        for (int k = 0; k < s->faces; k++)
-            own |= s->face[k] == (uint32_t)(mate / 2);
-        element_reach(e, &s->h->elements[mate / 2], &high, &low);
-        if (!own && (high > s->h->flat || low < -s->h->flat)
-            && is_within(s, &s->h->elements[mate / 2]))
-            return 1;
-    }
-    return 0;
-}
-
-/* What a body stands on, with its lids and with faces of its own. Returns 0, or -1 when out of
- * memory. */
-static int add_feet(struct bodies *b, const struct shell *s, const struct mates *mates,
-                    uint32_t body)
-{
-    const size_t before = b->feet_count;
-    double cover[2] = {0, 0};
-    int status = 0;
-    for (int i = 0; i < s->lids && status == 0; i++) {
-        const struct covering by = {b, body, NO_FACE};
-        status = add_cover(s->h, 0, 0, &s->lid[i], cover, &by);
-    }
-    for (int i = 0; i < s->faces && status == 0; i++) {
-        const struct element *e = &s->h->elements[s->face[i]];
-        const struct covering by = {b, body, s->face[i]};
-        struct shell_lid own = {.n = e->vertices};
-        memcpy(own.corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
-        memcpy(own.normal, e->normal, sizeof own.normal);
-        status = add_cover(s->h, 0, 0, &own, cover, &by);
-    }
-    const size_t all = b->feet_count;
-    b->feet_count = before;
-    for (size_t i = before; i < all; i++)
-        if (!is_lining(s, mates, b->feet[i].solid))
-            b->feet[b->feet_count++] = b->feet[i];
-    return status;
-}
-
-static int compare_feet(const void *a, const void *b)
-{
-    const struct body_foot *x = a, *y = b;
-    return x->on != y->on ? (x->on < y->on ? -1 : 1) : (x->body > y->body) - (x->body < y->body);
-}
-
-/* Bodies cover what they stand on, and that as much of them; where it is of a body itself, that
- * stands on them in turn and is counted so. */
-static void sum_feet(struct bodies *b, const struct hierarchy *h)
-{
-    for (size_t i = 0; i < b->feet_count; i++) {
-        const struct body_foot *foot = &b->feet[i];
-        b->covered[foot->on] += foot->area;
-        b->shut[foot->on] += foot->face != NO_FACE ? foot->area : 0;
-        if (foot->face != NO_FACE && !b->of[foot->solid])
-            add_share(b, h, foot->face, foot->area / h->elements[foot->face].area);
-    }
-    if (b->feet_count)
-        qsort(b->feet, b->feet_count, sizeof *b->feet, compare_feet);
 }
 
 /* Sides: of each face the first that lies in one plane with it. Returns how many; side[]: which of
@@ -443,12 +237,12 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
         return -1;
     for (uint32_t i = 0; i < h->built; i++) {
         if (b->of[i] || !h->solid[i] || !follow(&shell, mates, i) || !find_lids(&shell)
-            || !is_convex(&shell) || !is_shut(&shell))
+            || !is_convex(&shell) || !body_feet_shut(&shell))
             continue;
         if (make_room(b, count, &next, room) < 0)
             return -1;
         measure(&next, b, &shell, mates);
-        if (add_feet(b, &shell, mates, count) < 0)
+        if (body_feet_add(b, &shell, mates, count) < 0)
             return -1;
         b->body[count++] = next;
         for (int k = 0; k < shell.faces; k++)
@@ -462,82 +256,7 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
                              0,
                              0};
     }
-    sum_feet(b, h);
-    return 0;
-}
-
-/* Corner and normal of a side of a body, lids last. */
-static void side_of(const struct bodies *b, const struct hierarchy *h, const struct body *body,
-                    uint32_t side, const double **at, const double **n)
-{
-    if (side < body->faces) {
-        const struct element *e = &h->elements[b->faces[body->face + side]];
-        *at = e->vertex[0];
-        *n = e->normal;
-    } else {
-        const struct body_lid *lid = &b->lids[body->lid + side - body->faces];
-        *at = lid->at;
-        *n = lid->n;
-    }
-}
-
-static int holds(const struct bodies *b, const struct hierarchy *h, const struct body *body,
-                 const double p[3])
-{
-    const double *at, *n;
-    int inside = 1;
-    for (uint32_t i = 0; i < (uint32_t)body->faces + body->lids && inside; i++) {
-        side_of(b, h, body, i, &at, &n);
-        inside = height3(p, at, n) < 0;
-    }
-    return inside;
-}
-
-/* Does no side part an element from a body by more than that, and does it not look away where it
- * lies on one? */
-static int is_joined(const struct bodies *b, const struct hierarchy *h, const struct body *body,
-                     const struct element *e, double near)
-{
-    const double *at, *n;
-    int joined = 1;
-    for (uint32_t i = 0; i < (uint32_t)body->faces + body->lids && joined; i++) {
-        double high = -INFINITY, low = INFINITY;
-        side_of(b, h, body, i, &at, &n);
-        polygon_reach((const double(*)[3])e->vertex, e->vertices, at, n, &high, &low);
-        joined = low < -near || (low <= near && dot3(e->normal, n) < 0);
-    }
-    return joined;
-}
-
-/* The first of the bodies that stand on an element, or where it would be. */
-static size_t first_foot(const struct bodies *b, uint32_t element)
-{
-    size_t low = 0, high = b->feet_count;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (b->feet[middle].on < element)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-int bodies_hold(const struct bodies *b, const struct hierarchy *h, uint32_t element,
-                const double p[3])
-{
-    for (size_t i = first_foot(b, element); i < b->feet_count && b->feet[i].on == element; i++)
-        if (b->feet[i].face != NO_FACE && holds(b, h, &b->body[b->feet[i].body], p))
-            return 1;
-    return 0;
-}
-
-int bodies_join(const struct bodies *b, const struct hierarchy *h, uint32_t element,
-                const struct element *other, double near)
-{
-    for (size_t i = first_foot(b, element); i < b->feet_count && b->feet[i].on == element; i++)
-        if (b->feet[i].face != NO_FACE && is_joined(b, h, &b->body[b->feet[i].body], other, near))
-            return 1;
+    body_feet_sum(b, h);
     return 0;
 }
 
