@@ -1,10 +1,11 @@
 /* body_feet.c - see body_feet.h.
  *
- * A body stands on a face whose front looks into it where one of its sides, or a lid, lies on it.
- * What is there is covered; where the side is a face, light that comes from within meets that, and
- * light from the covered part the same. A face that goes on along other sides of the body, or into
- * it, lines a hollow one, which stands on nothing there. Invariant: once summed up, feet are in the
- * order of what they stand on, then of bodies. [derived here]
+ * A body stands on a face whose front looks into it where one of its sides, or a lid, lies on that.
+ * There the face is covered. Where the side is a face of its own, light from the covered part ends
+ * at it, and so does light that would come there through the body; behind a lid is nothing. A face
+ * that goes on into the body, or along another of its sides, lines a hollow one, which stands on
+ * nothing there. Invariant: once summed up, feet are in the order of what they stand on, then of
+ * bodies. [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
