@@ -125,14 +125,14 @@ static int solve_coarse(struct choosing *x, RadSolution *solution)
         return status;
     if (solve_without(x, &pairs, solution) < 0)
         return -1;
-    x->so_far.no_links = 1;
-    if (!(pairs > FEW))
+    if (!(pairs > FEW)) {
+        x->so_far.no_links = 1;
         return 0;
+    }
     const struct ray_split places = (*solution)->places;
     radGetReport(*solution, &r);
     x->so_far.seconds += r.seconds.build + r.seconds.refine + r.seconds.iterate;
     radReleaseSolution(*solution);
-    x->so_far.no_links = 0;
     status = solve(x, COARSE, pairs, solution);
     if (status <= 0)
         return status;

@@ -67,7 +67,7 @@ static int watch_round(void *context, const struct refinement *refinement)
     (void)refinement;
     return tell(w, "refine") != 0
            || (exchange_state_ask(&w->exchange->state)
-               && exchange_state_put(&w->exchange->state, NULL, NULL, 0));
+               && exchange_state_put(&w->exchange->state, NULL, NULL, 0, 0));
 }
 
 /* From a state that waits, or from the start. */

@@ -69,13 +69,13 @@ static void look(const void *looking, size_t from, size_t to)
     }
 }
 
-/* Is no more of it wanted, after this share? */
+/* Is no more of it wanted, after this share and so many rays? */
 static int is_stopped(const struct exchange_areas *m, const struct exchange_aim *how,
-                      const struct link *const *links, double share)
+                      const struct link *const *links, double share, uint64_t rays)
 {
     return (how->tell && how->tell(how->context, share))
            || (how->state && exchange_state_ask(how->state)
-               && exchange_state_put(how->state, m, links, m->block_count));
+               && exchange_state_put(how->state, m, links, m->block_count, rays));
 }
 
 /* Returns 0, or -1 on all ranks when it is not wanted any more. */
@@ -83,12 +83,14 @@ static int look_at_all(const struct looking *all, size_t count, const struct exc
                        const struct link *const *links)
 {
     const struct exchange_areas *m = all->areas;
+    const uint64_t before = rays_count(m->tree->rays).rays;
     for (size_t from = 0; from < count; from += AT_A_TIME) {
         const size_t n = count - from < AT_A_TIME ? count - from : AT_A_TIME;
         const struct looking some = {m, all->scratch, all->entries + from};
         ranks_loop_run(m->ranks, RANKS_VALUES, how->threads, n, 1, look, &some, some.entries,
                        sizeof *some.entries);
-        if (is_stopped(m, how, links, (double)(from + n) / (double)count))
+        if (is_stopped(m, how, links, (double)(from + n) / (double)count,
+                       rays_count(m->tree->rays).rays - before))
             return -1;
     }
     return 0;

@@ -29,6 +29,7 @@ struct filling {
     size_t read;                      /* of the first so many the state has given most */
     size_t told;                      /* of the first so many all ranks have the values */
     unsigned char *done;              /* [block]: it is filled, here */
+    uint64_t *rays;                   /* [block]: cast for it */
     double late;                      /* s, when to begin no more of them, */
     atomic_size_t *end;               /* and at which block that was; it is the first not filled */
 };
@@ -64,9 +65,11 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
             continue;
         if (is_late(f, i))
             return;
+        const uint64_t before = rays_count_own(m->tree->rays);
         if (!b->anew && (i >= f->read || exchange_link_clear(m->tree, f->links[i])))
             b->error = exchange_tile_fill(m, b, f->links[i], &f->scratch[thread_pool_number()],
                                           m->values + b->at);
+        f->rays[i] = rays_count_own(m->tree->rays) - before;
         f->done[i] = 1;
     }
 }
@@ -128,6 +131,15 @@ static int tell_values(struct filling *f)
     return failed ? -1 : 0;
 }
 
+/* Rays for blocks that are filled, behind one that is not. */
+static uint64_t rays_behind(const struct filling *f)
+{
+    uint64_t sum = 0;
+    for (size_t i = f->from; i < f->areas->block_count; i++)
+        sum += f->rays[i];
+    return sum;
+}
+
 /* Somebody is told that the first f->from blocks are there. Returns nonzero: he wants no more. */
 static int tell(struct filling *f, const struct exchange_aim *how)
 {
@@ -136,7 +148,8 @@ static int tell(struct filling *f, const struct exchange_aim *how)
     if (how->tell && how->tell(how->context, (double)at / (double)(m->kept ? m->kept : 1)))
         return 1;
     return how->state && f->from > f->read && exchange_state_ask(how->state)
-           && (tell_values(f) < 0 || exchange_state_put(how->state, m, f->links, f->from));
+           && (tell_values(f) < 0
+               || exchange_state_put(how->state, m, f->links, f->from, rays_behind(f)));
 }
 
 /* Fill the next blocks, as far as that goes until `late`; blocks behind one that was left may be,
@@ -162,7 +175,8 @@ int exchange_fill(struct exchange_areas *m, const struct link **links,
         .areas = m, .links = links, .scratch = scratch, .read = read > 0 ? (size_t)read : 0};
     size_t next = LEAST * (size_t)threads;
     f.done = calloc(m->block_count + 1, 1);
-    int failed = !scratch || !f.done || read < 0;
+    f.rays = calloc(m->block_count + 1, sizeof *f.rays);
+    int failed = !scratch || !f.done || !f.rays || read < 0;
     for (int t = 0; t < threads && !failed; t++)
         failed = exchange_scratch_open(&scratch[t], &m->limits) < 0;
     failed = ranks_any(m->ranks, failed);
@@ -184,5 +198,6 @@ int exchange_fill(struct exchange_areas *m, const struct link **links,
         exchange_scratch_close(&scratch[t]);
     free(scratch);
     free(f.done);
+    free(f.rays);
     return failed ? -1 : 0;
 }

@@ -163,9 +163,9 @@ int exchange_state_ask(struct exchange_state *s)
 }
 
 int exchange_state_put(struct exchange_state *s, const struct exchange_areas *m,
-                       const struct link *const *links, size_t blocks)
+                       const struct link *const *links, size_t blocks, uint64_t lost)
 {
-    uint64_t rays = rays_count(s->tree->rays).rays;
+    uint64_t rays = rays_count(s->tree->rays).rays - lost;
     ranks_add_counts(s->ranks, RANKS_VALUES, &rays, 1);
     if (ranks_number(s->ranks) == 0 && s->host->write)
         write_state(s, m, links, blocks, rays);

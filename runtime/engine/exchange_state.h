@@ -74,9 +74,10 @@ int64_t exchange_state_read_values(struct exchange_state *s, const struct exchan
 int exchange_state_ask(struct exchange_state *s);
 
 /* Write what is wanted, which rank 0 does; m NULL: between two rounds, else the first blocks are
- * done, and all ranks have them. Returns nonzero when the work is to be put down. */
+ * done, and all ranks have them. `lost`: rays cast by this rank for what is not in it, which will
+ * be cast again. Returns nonzero when the work is to be put down. */
 int exchange_state_put(struct exchange_state *s, const struct exchange_areas *m,
-                       const struct link *const *links, size_t blocks);
+                       const struct link *const *links, size_t blocks, uint64_t lost);
 
 /* How many values a block has; and does a link's block leave them in a state? */
 static inline uint64_t exchange_state_values(const struct exchange_block *b)

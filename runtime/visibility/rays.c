@@ -126,6 +126,11 @@ static int all_free(const struct rays *rays, int count, const struct segment *se
     return 1;
 }
 
+static struct tally *own_tally(const struct rays *rays)
+{
+    return &rays->tallies[thread_pool_number() % rays->threads];
+}
+
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     const struct rays *rays = (const struct rays *)(const void *)host;
@@ -133,7 +138,7 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
         spared_rays += (uint64_t)count;
         return 0;
     }
-    struct tally *tally = &rays->tallies[thread_pool_number() % rays->threads];
+    struct tally *tally = own_tally(rays);
     uint64_t hits = 0, before = tally->rays, spent = 0;
     tally->rays += (uint64_t)count;
     const int timed = before / TIMED != (before + (uint64_t)count) / TIMED;
@@ -590,6 +595,11 @@ struct rays_count rays_count(const struct rays *rays)
         sum.seconds += 1e-9 * (double)rays->tallies[i].nanoseconds;
     }
     return sum;
+}
+
+uint64_t rays_count_own(const struct rays *rays)
+{
+    return own_tally(rays)->rays;
 }
 
 void rays_close(struct rays *rays)

@@ -71,6 +71,8 @@ const struct host *rays_host(const struct rays *rays);
 void rays_tell_impact(struct rays *rays, double impact);
 void rays_tell_rank(struct rays *rays, double rank);
 struct rays_count rays_count(const struct rays *rays);
+/* Rays that the calling thread has cast. */
+uint64_t rays_count_own(const struct rays *rays);
 void rays_close(struct rays *rays);
 
 #endif
