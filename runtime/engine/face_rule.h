@@ -4,7 +4,9 @@
  * middles of sides and the middle, exact to degree 3. Of a quad they are the products of two
  * sides' points, weighed by how far the quad is spread out there.
  * Together they tell what neither tells alone: two rules may agree by chance, but what the best
- * quadratic leaves of the values at the points of both is small only where they lie on one.
+ * quadratic leaves of the values at the points of both is small only where they lie on one. With
+ * those on the rim go some that weigh nothing, at places along the sides where the others leave
+ * wide gaps: a strip across a face, as is lit along a sheet's edge, is missed by products alike.
  * [triangles: Dunavant 1985; quads: Gauss, Simpson]
  * SPDX-License-Identifier: MIT */
 #ifndef FACE_RULE_H
@@ -13,7 +15,9 @@
 #include "discussion.h"
 #include "kernel/constants.h"
 
-enum { FACE_RULE = 9 }; /* the most points of a rule */
+/* the most points of a rule; those of products; which of these is a quad's middle; and those that
+ * weigh nothing */
+enum { FACE_RULE = 13, FACE_PRODUCTS = 9, FACE_MIDDLE = 4, FACE_MORE = 4 };
 
 struct face_rule {
     int count;
@@ -32,19 +36,43 @@ static inline const double *face_rule_nodes(int vertices, int rim)
     return vertices == 3 ? of_triangle[rim] : of_quad[rim];
 }
 
+/* How many points a rule has, those that weigh nothing among them. */
+static inline int face_rule_count(int vertices, int rim)
+{
+    return vertices == 3 ? 6 + 4 * rim : FACE_PRODUCTS + FACE_MORE * rim;
+}
+
+/* Where a point stands: of a triangle its first two barycentric coordinates, of a quad how far
+ * along two sides. */
+static inline void face_rule_place(int vertices, int rim, int i, double place[2])
+{
+    static const double of_triangle[3] = {0.66, 0.22, 0.12};
+    static const double of_quad[FACE_MORE][2] = {
+        {0.242, 0.629}, {0.371, 0.242}, {0.629, 0.758}, {0.758, 0.371}};
+    const double *node = face_rule_nodes(vertices, rim);
+    if (vertices == 3) {
+        const double w = node[i < 7 ? i / 3 : 0], u = 0.5 * (1 - w);
+        for (int k = 0; k < 2; k++)
+            place[k] = i < 7 ? (i % 3 == k ? w : u) : of_triangle[(i - 7 + 3 - k) % 3];
+    } else {
+        for (int k = 0; k < 2; k++)
+            place[k] = i < FACE_PRODUCTS ? node[k ? i % 3 : i / 3] : of_quad[i - FACE_PRODUCTS][k];
+    }
+}
+
 static inline void face_rule_of_triangle(struct face_rule *rule, const struct element *e, int rim)
 {
-    static const double weight[2][3] = {{0.10995174365532186764, 0.22338158967801146570, 0},
-                                        {3 / 60.0, 8 / 60.0, 27 / 60.0}};
-    const double *node = face_rule_nodes(3, rim);
+    static const double weight[2][4] = {{0.10995174365532186764, 0.22338158967801146570, 0, 0},
+                                        {3 / 60.0, 8 / 60.0, 27 / 60.0, 0}};
     const double(*v)[3] = (const double(*)[3])e->vertex;
-    rule->count = 6 + rim;
+    rule->count = face_rule_count(3, rim);
     rule->all = 1;
     for (int i = 0; i < rule->count; i++) {
-        double w = node[i / 3], u = 0.5 * (1 - w);
-        rule->weight[i] = weight[rim][i / 3];
+        double at[2];
+        face_rule_place(3, rim, i, at);
+        rule->weight[i] = weight[rim][i < 7 ? i / 3 : 3];
         for (int k = 0; k < 3; k++)
-            rule->x[k][i] = w * v[i % 3][k] + u * (v[(i + 1) % 3][k] + v[(i + 2) % 3][k]);
+            rule->x[k][i] = at[0] * v[0][k] + at[1] * v[1][k] + (1 - at[0] - at[1]) * v[2][k];
     }
 }
 
@@ -52,12 +80,13 @@ static inline void face_rule_of_quad(struct face_rule *rule, const struct elemen
 {
     static const double weight[2][3] = {{5 / 18.0, 8 / 18.0, 5 / 18.0},
                                         {1 / 6.0, 4 / 6.0, 1 / 6.0}};
-    const double *node = face_rule_nodes(4, rim);
     const double(*v)[3] = (const double(*)[3])e->vertex;
-    rule->count = 9;
+    rule->count = face_rule_count(4, rim);
     rule->all = e->area;
     for (int i = 0; i < rule->count; i++) {
-        double s = node[i / 3], t = node[i % 3], ds[3], dt[3], jacobian[3];
+        double at[2], ds[3], dt[3], jacobian[3];
+        face_rule_place(4, rim, i, at);
+        const double s = at[0], t = at[1];
         for (int k = 0; k < 3; k++) {
             double low = v[0][k] + s * (v[1][k] - v[0][k]),
                    high = v[3][k] + s * (v[2][k] - v[3][k]);
@@ -66,7 +95,9 @@ static inline void face_rule_of_quad(struct face_rule *rule, const struct elemen
             rule->x[k][i] = low + t * dt[k];
         }
         cross3(jacobian, ds, dt);
-        rule->weight[i] = weight[rim][i / 3] * weight[rim][i % 3] * dot3(jacobian, e->normal);
+        rule->weight[i] = i < FACE_PRODUCTS
+                              ? weight[rim][i / 3] * weight[rim][i % 3] * dot3(jacobian, e->normal)
+                              : 0;
     }
 }
 
@@ -89,14 +120,10 @@ static inline void face_fit_open(struct face_fit *fit, int vertices, int rules)
 {
     fit->count = 0;
     for (int rim = 0; rim < rules; rim++) {
-        const double *node = face_rule_nodes(vertices, rim);
-        for (int i = 0; i < (vertices == 3 ? 6 + rim : 9); i++) {
-            double w = node[i / 3], u = 0.5 * (1 - w), x = w, y = node[i % 3];
-            if (vertices == 3) {
-                x = i % 3 == 0 ? w : u;
-                y = i % 3 == 1 ? w : u;
-            }
-            const double power[FACE_FIT] = {1, x, y, x * x, x * y, y * y};
+        for (int i = 0; i < face_rule_count(vertices, rim); i++) {
+            double at[2];
+            face_rule_place(vertices, rim, i, at);
+            const double x = at[0], y = at[1], power[FACE_FIT] = {1, x, y, x * x, x * y, y * y};
             for (int b = 0; b < FACE_FIT; b++)
                 fit->basis[b][fit->count] = power[b];
             fit->count++;

@@ -7,22 +7,11 @@
  * throws a shade on some point is not asked: the rule's own error speaks of that. [derived here]
  * SPDX-License-Identifier: MIT */
 #include "engine/sight_missed.h"
+#include "engine/sight_near.h"
 #include "kernel/element_distance.h"
-#include "kernel/polygon_factor.h"
+#include "kernel/lambert.h"
 #include "kernel/shaft.h"
 #include "visibility/candidates.h"
-
-/* With nothing between, whichever of its sides a face turns to e (m2). */
-static double exchange_through(const struct element *face, const struct element *e)
-{
-    struct element back = *face;
-    for (int i = 0; i < face->vertices; i++)
-        for (int k = 0; k < 3; k++)
-            back.vertex[i][k] = face->vertex[face->vertices - 1 - i][k];
-    for (int k = 0; k < 3; k++)
-        back.normal[k] = -face->normal[k];
-    return face->area * (polygon_factor(face, e, 0) + polygon_factor(&back, e, 0));
-}
 
 /* Of a piece: where a convex face's shade meets a convex polygon is convex on the piece, and of all
  * that is convex and holds none of its and its quarters' points none is larger, about: a strip
@@ -109,7 +98,7 @@ double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
             || is_beyond(face, to, piece, tree->h.flat)
             || !candidates_meets(&tree->h, &shaft, tree->host.ray_offset, faces[i]))
             continue;
-        sum += fmin(fmin(exchange_through(face, piece), exchange_through(face, to)),
+        sum += fmin(fmin(sight_exchange_through(face, piece), sight_exchange_through(face, to)),
                     exchange_in_gap(face, piece));
     }
     return sum;

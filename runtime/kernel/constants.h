@@ -553,11 +553,12 @@
  * former that of its four quarters. Of 20,000 random shades, products and unions of up to three
  * ramps of .05 to 3 sides, on a triangle and a quad: where that is up to half of what may be wrong,
  * of which half of them are, .03 and .05 % are wrong by more (where the two rules differ by a
- * quarter of it alone, .3 and .1 to .8 %); of quarters, .06 % (.3 to .6) */
+ * quarter of it alone, .3 and .1 to .8 %); of quarters, .06 % (.3 to .6); without the points that
+ * weigh nothing */
 #define SIGHT_REST 0.5
 #define SIGHT_REST_QUARTERS 0.125
 /* of what a part exchanges with nothing between, in scenes of many polygons: its error, before it
- * is held against its quarters, where all of its 15 to 25 points see the same, all or nothing, and
+ * is held against its quarters, where all of its 16 to 37 points see the same, all or nothing, and
  * no shaft proves it. Slits between tubes were missed: a row was off by 6e-3; chosen, a tenth of
  * what chance might have hidden from so few */
 #define SIGHT_ALIKE 0.01

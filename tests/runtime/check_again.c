@@ -12,8 +12,8 @@
 
 static const double TOLERANCE = 3e-4;
 
-/* Those of twelve that were worst. */
-static const uint64_t rooms[] = {0, 3, 4, 6, 9, OFF};
+/* Those of the first twelve that were worst, and one that is looked at again. */
+static const uint64_t rooms[] = {0, 3, 4, 6, 9, 11, OFF};
 
 START_TEST(test_rows)
 {
@@ -62,7 +62,8 @@ int main(void)
     TCase *tests = tcase_create("rows");
     tcase_set_timeout(tests, 120);
     suite_add_tcase(suite, tests);
-    tcase_add_loop_test(tests, test_rows, 0, sizeof rooms / sizeof *rooms);
+    tcase_add_loop_test(tests, test_rows, 0,
+                        under_sanitizers() ? 2 : (int)(sizeof rooms / sizeof *rooms));
     tcase_add_test(tests, test_entries);
     return suite_failures(suite);
 }

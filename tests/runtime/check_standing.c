@@ -296,13 +296,13 @@ START_TEST(test_covered)
         made_box(&s, 0, from, leg, 2);
     }
     struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    exchange_set_tolerance(refiner, 1e-4);
-    const struct exchange_options options = {.tolerance = 1e-4, .threads = 1};
+    exchange_set_tolerance(refiner, 2e-5);
+    const struct exchange_options options = {.tolerance = 2e-5, .threads = 1};
     ck_assert_int_eq(exchange_open(&x, &s, refiner, &options, &cause), 0);
     const double share = 4 * 0.012 * 0.012 / (0.6 * 0.6);
-    ck_assert_double_eq_tol(x.losses[7].covered, share, 0.1 * share); /* the seat's lower side */
+    ck_assert_double_eq_tol(x.losses[7].covered, share, 0.02 * share); /* the seat's lower side */
     ck_assert_double_eq(x.losses[6].covered, 0);
-    ck_assert_double_le(x.report.defect_most, 3e-4);
+    ck_assert_double_le(x.report.defect_most, 6e-5);
     exchange_close(&x);
     refiner_close(refiner);
     made_close(&s);

@@ -1,0 +1,154 @@
+/* check_sheets.c - view factors of two walls across a row of sheets, as of a collimator or blinds.
+ *
+ * Sheets as high as the walls stand upright between them. So a ray passes unless it does not as
+ * seen from above, and what a stripe of one wall exchanges with one of the other, d beside it, is
+ * atan(1 / sqrt(c)) / (pi c^1.5), c = 1 + d^2, for walls 1 m high and 1 m apart. Of each stripe the
+ * sheets hide stretches of the other wall; the rest is summed up.
+ * [two integrals over heights of Lambert's kernel; derived here]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include "kernel/hash.h"
+#include "radiosity.h"
+#include "runtime/make_polygons.h"
+#include "suite.h"
+
+static const double WIDE = 1.2; /* m */
+enum { STEPS = 1200, MOST = 20, OTHERS = 20 };
+
+static double stripes(double d)
+{
+    const double c = 1 + d * d;
+    return atan(1 / sqrt(c)) / (3.14159265358979323846 * c * sqrt(c));
+}
+
+/* [i]: over all d up to i WIDE / STEPS */
+static double summed[STEPS + 1];
+
+static double up_to(double d)
+{
+    const double at = d / WIDE * STEPS;
+    const int i = at < STEPS ? (int)at : STEPS - 1;
+    return summed[i] + (at - i) * (summed[i + 1] - summed[i]);
+}
+
+/* What a stripe sees to its right, of sheets so far from it there, nearest first, from `near` of
+ * the wall to 1 - near. */
+static double seen_beside(const double *sheet, int count, double near, double end)
+{
+    double sum = 0, from = 0;
+    for (int i = 0; i < count; i++) {
+        const double hidden = fmin(sheet[i] / (1 - near), end);
+        if (hidden > from)
+            sum += up_to(hidden) - up_to(from);
+        from = fmin(fmax(from, sheet[i] / near), end);
+    }
+    return sum + up_to(end) - up_to(from);
+}
+
+static double right_factor(const double *sheet, int count, double near)
+{
+    enum { STRIPES = 4000 };
+    double sum = 0, beside[2][MOST];
+    for (int i = 0; i < STEPS; i++) {
+        const double d = WIDE * i / STEPS, h = WIDE / STEPS;
+        summed[i + 1] = summed[i] + h / 6 * (stripes(d) + 4 * stripes(d + h / 2) + stripes(d + h));
+    }
+    for (int i = 0; i < STRIPES; i++) {
+        const double x = WIDE * (i + 0.5) / STRIPES;
+        int left = 0, right = 0;
+        for (int k = 0; k < count; k++)
+            if (sheet[k] > x)
+                beside[1][right++] = sheet[k] - x;
+        for (int k = count - 1; k >= 0; k--)
+            if (sheet[k] <= x)
+                beside[0][left++] = x - sheet[k];
+        sum +=
+            seen_beside(beside[0], left, near, x) + seen_beside(beside[1], right, near, WIDE - x);
+    }
+    return sum / STRIPES;
+}
+
+/* Sheets in cells of one width, one width apart from the ends, too, or anywhere. */
+enum row { IN_CELLS, APART, ANYWHERE, ROWS };
+static void place(double *sheet, int count, enum row row)
+{
+    for (int i = 0; i < count; i++)
+        sheet[i] = row == IN_CELLS ? WIDE * (i + 0.5) / count
+                   : row == APART  ? WIDE * (i + 1) / (count + 1)
+                                   : WIDE * (i + hash_unit((uint64_t)(count + i))) / count;
+}
+
+static double computed(const double *sheet, int count, double near)
+{
+    static double f[FACES], area[FACES];
+    const double low[3] = {0, 0, 0}, high[3] = {0, 1, 0}, along[3] = {WIDE, 0, 0},
+                 up[3] = {0, 0, 1};
+    clear();
+    rectangle(low, up, along);
+    rectangle(high, along, up);
+    for (int i = 0; i < count; i++) {
+        const double at[3] = {sheet[i], near, 0}, deep[3] = {0, 1 - 2 * near, 0};
+        rectangle(at, deep, up);
+        rectangle(at, up, deep);
+    }
+    for (int i = 0; i < OTHERS; i++) { /* far above, facing away: there are many polygons */
+        const double at[3] = {0, 0, 5 + 0.1 * i}, u[3] = {0.1, 0, 0}, v[3] = {0, 0.1, 0};
+        rectangle(at, u, v);
+    }
+    factors(1, 0, f, area);
+    return f[1];
+}
+
+/* All within the tolerance in the mean, and each within three. */
+START_TEST(test_row)
+{
+    static const int counts[] = {5, 8, 12, 16, 20};
+    static const double near[] = {0.1, 0.25, 0.4};
+    enum { COUNTS = sizeof counts / sizeof *counts, NEAR = sizeof near / sizeof *near };
+    double sheet[MOST], sum = 0, most = 0;
+    for (int i = 0; i < COUNTS * NEAR * ROWS; i++) {
+        const int count = counts[i % COUNTS];
+        const double by = near[i / COUNTS % NEAR];
+        place(sheet, count, (enum row)(i / COUNTS / NEAR));
+        const double off = fabs(computed(sheet, count, by) - right_factor(sheet, count, by));
+        sum += off;
+        most = fmax(most, off);
+    }
+    printf("rows of sheets: off by %.1e in the mean, %.1e at the most\n",
+           sum / (COUNTS * NEAR * ROWS), most);
+    ck_assert_double_lt(sum / (COUNTS * NEAR * ROWS), 3e-4);
+    ck_assert_double_lt(most, 9e-4);
+}
+END_TEST
+
+/* Of two walls across from each other, so wide. [Howell's catalog, C-11] */
+static double across(double wide)
+{
+    const double a = 1 + wide * wide, root = sqrt(2), w = sqrt(a);
+    return 2 / (3.14159265358979323846 * wide)
+           * (log(sqrt(2 * a / (1 + a))) + wide * root * atan(wide / root) + w * atan(1 / w)
+              - wide * atan(wide) - atan(1));
+}
+
+/* The judge itself: of no sheets, and of one that reaches from wall to wall, the factor is known.
+ */
+START_TEST(test_right)
+{
+    const double sheet[1] = {WIDE / 2};
+    ck_assert_double_eq_tol(right_factor(sheet, 0, 0.25), across(WIDE), 1e-6);
+    ck_assert_double_eq_tol(right_factor(sheet, 1, 1e-9), across(WIDE / 2), 1e-6);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("sheets");
+    TCase *t = tcase_create("sheets");
+    tcase_set_timeout(t, 120);
+    tcase_add_test(t, test_right);
+    tcase_add_test(t, test_row);
+    suite_add_tcase(suite, t);
+    return suite_failures(suite) != 0;
+}
