@@ -425,7 +425,7 @@ int main(void)
     suite_add_tcase(suite, tests);
     tcase_add_loop_test(tests, test_both_ways, 0, 3);
     tcase_add_loop_test(tests, test_loose, 0, 3);
-    tcase_add_loop_test(tests, test_round, 0, 8);
+    tcase_add_loop_test(tests, test_round, 0, under_sanitizers() ? 3 : 8);
     tcase_add_test(tests, test_hidden);
     tcase_add_test(tests, test_closed);
     tcase_add_test(tests, test_many_between);
