@@ -143,7 +143,9 @@ houses are solid | runtime/hierarchy/body_feet.c | s/if (!is_lining(s, mates, b-
 tubes are solid | runtime/hierarchy/body_feet.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
 points on the larger face | runtime/engine/exchange_sight.c | s/from_r = apart ?/from_r = 0 * apart ?/ | runtime/check_slots
 pieces cut in the middle | runtime/engine/exchange_sight.c | s/OFF_MIDDLE = 0.125/OFF_MIDDLE = 0/ | runtime/check_sheets
-near faces are not asked | runtime/engine/exchange_sight.c | s/MISJUDGED = 0.5/MISJUDGED = 0/ | runtime/check_sheets
+near faces are not asked | runtime/engine/exchange_sight.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets
+crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from > 2)/else if (to - from > 99)/ | runtime/check_stacked
+boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
 a corner beyond is between | runtime/hierarchy/flat_hull.c | s/!(across(hull\[count - 2\], hull\[count - 1\], p) > 0)/!turns(hull[count - 2], hull[count - 1], p)/ | runtime/check_flat_groups
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
 emitters of one leaf | runtime/engine/detail.c | s/failed = h->elements\[i\].vertices \&\& /failed = h->elements[i].vertices \&\& !(s->problem.exitance[h->elements[i].face * s->problem.bands] > 0) \&\& / | runtime/check_ambient

@@ -2,11 +2,11 @@
  *
  * Faces that follow each other across their edges close a shell, or leave edges free that go around
  * sides without a face: a solid that stands on something, as a chair's leg between floor and seat.
- * Where other faces cover such a side wholly it is shut by a lid; what goes in there meets them, so
- * the lid changes nothing outside. Where no corner of a closed shell lies in front of any of its
- * planes, it is the surface of a convex solid, its fronts outside. So what it hides from a point is
- * one convex polygon, whatever its faces are. Invariant: a face is of one body at most; a body has
- * no free edge but its lids', no bent face and no face whose front looks inside.
+ * Where other faces cover such sides wholly they are shut by lids (body_lids.h); what goes in there
+ * meets them, so lids change nothing outside. Where no corner of a closed shell lies in front of
+ * any of its planes, it is the surface of a convex solid, its fronts outside. So what it hides from
+ * a point is one convex polygon, whatever its faces are. Invariant: a face is of one body at most;
+ * a body has no free edge but its lids', no bent face and no face whose front looks inside.
  * [a closed surface that each of its planes supports is its hull's; derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -34,7 +34,7 @@ static int is_free(const struct hierarchy *h, const struct element *e, int64_t m
 static int follow(struct shell *s, const struct mates *mates, uint32_t from)
 {
     s->faces = 1;
-    s->edges = s->lids = 0;
+    s->edges = 0;
     s->face[0] = from;
     for (int at = 0; at < s->faces; at++) {
         const struct element *e = &s->h->elements[s->face[at]];
@@ -57,78 +57,16 @@ static int follow(struct shell *s, const struct mates *mates, uint32_t from)
     return 1;
 }
 
-/* The one free edge that begins where another ends, but for rounding; NULL: none does, or more
- * than one. */
-static struct free_edge *next_edge(struct shell *s, const struct free_edge *edge)
-{
-    struct free_edge *next = NULL;
-    for (int i = 0; i < s->edges; i++) {
-        double apart[3];
-        sub3(apart, s->edge[i].from, edge->to);
-        if (dot3(apart, apart) > s->h->flat * s->h->flat)
-            continue;
-        if (next)
-            return NULL;
-        next = &s->edge[i];
-    }
-    return next;
-}
-
-/* The side that free edges go around from one on, as seen from outside: the other way round than
- * its neighbours go along them. Returns 0 when it is open. */
-static int add_lid(struct shell *s, struct free_edge *first)
-{
-    struct shell_lid *lid = &s->lid[s->lids];
-    struct free_edge *edge = first;
-    lid->around = 0;
-    lid->n = 0;
-    do {
-        double along[3];
-        if (edge->lid >= 0)
-            return 0;
-        edge->lid = s->lids;
-        sub3(along, edge->to, edge->from);
-        lid->around += length3(along);
-        lid->n++;
-        memcpy(lid->corner[BODY_CORNERS - lid->n], edge->to, sizeof lid->corner[0]);
-        edge = next_edge(s, edge);
-    } while (edge && edge != first);
-    memmove(lid->corner, lid->corner + BODY_CORNERS - lid->n, (size_t)lid->n * sizeof *lid->corner);
-    lid->area = polygon_normal(lid->corner, (uint32_t)lid->n, lid->normal);
-    s->lids++;
-    return edge && lid->area > 0;
-}
-
-static int find_lids(struct shell *s)
-{
-    for (int i = 0; i < s->edges; i++)
-        if (s->edge[i].lid < 0 && (s->lids == BODY_LIDS || !add_lid(s, &s->edge[i])))
-            return 0;
-    return 1;
-}
-
-/* Is a side flat, and does no corner lie in front of its plane, and some behind by more than
- * rounding? Else points in the plane of a plate were inside. */
-static int supports(const struct shell *s, const double (*v)[3], int n, const double normal[3])
-{
-    double high = 0, low = 0, deepest = 0;
-    polygon_reach(v, (uint32_t)n, v[0], normal, &high, &low);
-    for (int i = 0; i < s->faces; i++) {
-        const struct element *e = &s->h->elements[s->face[i]];
-        polygon_reach((const double(*)[3])e->vertex, e->vertices, v[0], normal, &high, &deepest);
-    }
-    return high <= s->h->flat && low >= -s->h->flat && deepest < -8 * s->h->flat;
-}
-
 static int is_convex(const struct shell *s)
 {
     for (int i = 0; i < s->faces; i++) {
         const struct element *e = &s->h->elements[s->face[i]];
-        if (!supports(s, (const double(*)[3])e->vertex, e->vertices, e->normal))
+        if (!body_lids_supports(s, (const double(*)[3])e->vertex, e->vertices, e->normal))
             return 0;
     }
     for (int i = 0; i < s->lids; i++)
-        if (!supports(s, (const double(*)[3])s->lid[i].corner, s->lid[i].n, s->lid[i].normal))
+        if (!body_lids_supports(s, (const double(*)[3])s->lid[i].corner, s->lid[i].n,
+                                s->lid[i].normal))
             return 0;
     return 1;
 }
@@ -197,6 +135,16 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
                                                       (uint8_t)side[f], (uint8_t)right};
         }
     }
+    for (int i = 0; i < s->joints; i++) {
+        const struct lid_joint *joint = &s->joint[i];
+        const int from = place_of(corners, count, joint->from);
+        count += from == count;
+        const int to = place_of(corners, count, joint->to);
+        count += to == count;
+        edges[body->edges++] =
+            (struct body_edge){(uint8_t)from, (uint8_t)to, (uint8_t)(sides + joint->left),
+                               (uint8_t)(sides + joint->right)};
+    }
     for (int i = 0; i < s->lids; i++) {
         struct body_lid *lid = &b->lids[body->lid + (uint32_t)i];
         memcpy(lid->n, s->lid[i].normal, sizeof lid->n);
@@ -236,7 +184,7 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
     if (!b->of || !b->covered || !b->shut)
         return -1;
     for (uint32_t i = 0; i < h->built; i++) {
-        if (b->of[i] || !h->solid[i] || !follow(&shell, mates, i) || !find_lids(&shell)
+        if (b->of[i] || !h->solid[i] || !follow(&shell, mates, i) || !body_lids_find(&shell)
             || !is_convex(&shell) || !body_feet_shut(&shell))
             continue;
         if (make_room(b, count, &next, room) < 0)

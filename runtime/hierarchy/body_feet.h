@@ -3,25 +3,7 @@
 #ifndef BODY_FEET_H
 #define BODY_FEET_H
 
-#include "hierarchy/bodies.h"
-
-/* An edge that nobody of the shell is across: of a face, from its corner to the next one. */
-struct free_edge {
-    int face, lid; /* -1: of none yet */
-    const double *from, *to;
-};
-
-/* A body in the making. */
-struct shell {
-    const struct hierarchy *h;
-    int faces, edges, lids;
-    uint32_t face[BODY_FACES];
-    struct free_edge edge[BODY_CORNERS];
-    struct shell_lid {
-        double corner[BODY_CORNERS][3], normal[3], area, around;
-        int n;
-    } lid[BODY_LIDS];
-};
+#include "hierarchy/body_lids.h"
 
 /* Are all lids covered, but for what is narrower than faces may reach off their planes? */
 int body_feet_shut(const struct shell *shell);

@@ -10,7 +10,7 @@ enum { NO_MATE = -1 };
 struct mates {
     /* [built]: across the edge from corner i to the next: twice the element's index, 1 more when it
      * runs along the edge the same way round, so that the fronts of the two are on different sides;
-     * NO_MATE: nobody, or more than one */
+     * NO_MATE: nobody, or not known who of several */
     int64_t (*of)[4];
 };
 

@@ -126,12 +126,49 @@ START_TEST(test_house)
 }
 END_TEST
 
+/* A shelf whose end lies on a post, but for four ninths of it: a post on a tile's edge, against a
+ * wall, in a corner of the room, without the sides that it stands on or with them. */
+static const struct {
+    int tiles;
+    double at[2];
+    unsigned without;
+} post[] = {{1, {1, 1}, 0},
+            {1, {1, 1}, 1},
+            {3, {1, 1}, 0},
+            {3, {1, 1}, 1},
+            {1, {1, 0}, 1 | 1 << 4},
+            {3, {1, 0}, 1 | 1 << 4},
+            {3, {1, 0}, 0},
+            {1, {0, 0}, 1 | 1 << 2 | 1 << 4},
+            {3, {0, 0}, 1 | 1 << 2 | 1 << 4},
+            {3, {0, 0}, 0}};
+
+START_TEST(test_shelf)
+{
+    static double f[FACES * FACES], area[FACES];
+    const double x = post[_i].at[0], y = post[_i].at[1], low[3] = {x, y, 0},
+                 high[3] = {x + 0.1, y + 1, 1}, from[3] = {x + 0.1, y + 0.5, 0.5},
+                 to[3] = {x + 1, y + 1.4, 0.55};
+    clear();
+    room(3, 2, post[_i].tiles);
+    box(low, high, 0, post[_i].without);
+    const uint32_t shelf = scene.faces, end = shelf + 2;
+    box(from, to, 0, 0);
+    factors(scene.faces, 0, f, area);
+    ck_assert_double_eq_tol(row_sum(f, end), 4.0 / 9, 3e-4);
+    for (uint32_t i = shelf; i < scene.faces; i++)
+        if (i != end)
+            ck_assert_double_eq_tol(row_sum(f, i), 1, 3e-4);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("stacked");
     TCase *t = tcase_create("stacked");
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_boxes, 0, sizeof stack / sizeof *stack);
+    tcase_add_loop_test(t, test_shelf, 0, sizeof post / sizeof *post);
     tcase_add_test(t, test_post);
     tcase_add_loop_test(t, test_house, 0, 3);
     suite_add_tcase(suite, t);

@@ -1,0 +1,40 @@
+/* body_lids.h - a body in the making, and the sides that it has no face on.
+ * SPDX-License-Identifier: MIT */
+#ifndef BODY_LIDS_H
+#define BODY_LIDS_H
+
+#include "hierarchy/bodies.h"
+
+/* An edge that nobody of the shell is across: of a face, from its corner to the next one. */
+struct free_edge {
+    int face, lid; /* -1: of none yet */
+    const double *from, *to;
+};
+
+/* Lids that meet at an edge of their own: from a corner to another, which the left one has on its
+ * left as seen from outside. */
+struct lid_joint {
+    double from[3], to[3];
+    int left, right;
+};
+
+struct shell {
+    const struct hierarchy *h;
+    int faces, edges, lids, joints;
+    uint32_t face[BODY_FACES];
+    struct free_edge edge[BODY_CORNERS];
+    struct shell_lid {
+        double corner[BODY_CORNERS][3], normal[3], area, around;
+        int n;
+    } lid[BODY_LIDS];
+    struct lid_joint joint[BODY_LIDS];
+};
+
+/* Is a side flat, and does no corner of the shell lie in front of its plane, and some behind by
+ * more than rounding? Else points in the plane of a plate were inside. */
+int body_lids_supports(const struct shell *s, const double (*v)[3], int n, const double normal[3]);
+
+/* The lids, from the free edges. Returns 0 when these go around none. */
+int body_lids_find(struct shell *s);
+
+#endif
