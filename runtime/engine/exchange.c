@@ -285,11 +285,17 @@ static int add_rows(struct exchange *x, const struct asking *a, double *sums, do
 }
 
 /* Is row i off by more than chance explains? What a row lacks whose light goes elsewhere, too, is
- * not known so well. */
+ * not known so well, but of what solids stand on. */
 static int is_off(const struct asking *a, uint32_t i)
 {
     const double most = EXCHANGE_OFF * a->options->tolerance, lacks = 1 - a->share[i];
-    return -lacks > most || (is_closed(&a->ways[i]) && lacks > most);
+    const struct exchange_loss *way = &a->ways[i];
+    const double covered = way->covered > 0 ? share_under_bodies(a->exchange, i) : 0;
+    if (-lacks > most)
+        return 1;
+    if (way->leaves > 0 || way->backs > 0 || (way->covered > 0 && !(covered > 0)))
+        return 0;
+    return fabs(lacks - covered) > most;
 }
 
 /* The rows that are: off[inputs]. Returns their number. */

@@ -9,6 +9,7 @@
  * a body has no free edge but its lids', no bent face and no face whose front looks inside.
  * [a closed surface that each of its planes supports is its hull's; derived here]
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/bodies.h"
@@ -155,55 +156,132 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
     body->lids = (uint8_t)s->lids;
 }
 
-/* The next body of the lists, empty yet. Returns 0, or -1 when out of memory. */
-static int make_room(struct bodies *b, uint32_t count, const struct body *next, size_t room[5])
+/* While they are found. */
+struct making {
+    struct bodies *bodies;
+    uint32_t count;
+    struct body next; /* of the lists, empty yet */
+    size_t room[5];
+};
+
+/* Returns 0, or -1 when out of memory. */
+static int make_room(struct making *m)
 {
-    return array_reserve(&b->body, count + 1, &room[0], sizeof *b->body) < 0
-                   || array_reserve(&b->faces, next->face + BODY_FACES, &room[1], sizeof *b->faces)
+    struct bodies *b = m->bodies;
+    const struct body *next = &m->next;
+    return array_reserve(&b->body, m->count + 1, &m->room[0], sizeof *b->body) < 0
+                   || array_reserve(&b->faces, next->face + BODY_FACES, &m->room[1],
+                                    sizeof *b->faces)
                           < 0
-                   || array_reserve(&b->corners, next->corner + BODY_CORNERS, &room[2],
+                   || array_reserve(&b->corners, next->corner + BODY_CORNERS, &m->room[2],
                                     sizeof *b->corners)
                           < 0
-                   || array_reserve(&b->edges, next->edge + BODY_EDGES, &room[3], sizeof *b->edges)
+                   || array_reserve(&b->edges, next->edge + BODY_EDGES, &m->room[3],
+                                    sizeof *b->edges)
                           < 0
-                   || array_reserve(&b->lids, next->lid + BODY_LIDS, &room[4], sizeof *b->lids) < 0
+                   || array_reserve(&b->lids, next->lid + BODY_LIDS, &m->room[4], sizeof *b->lids)
+                          < 0
                ? -1
                : 0;
 }
 
-int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates *mates)
+/* An element and all below it are of the body. */
+static void mark(struct bodies *b, const struct hierarchy *h, uint32_t index, uint32_t body)
 {
+    const struct element *e = &h->elements[index];
+    b->whose[index] = body + 1;
+    for (uint32_t c = 0; c < e->children; c++)
+        mark(b, h, e->child + c, body);
+}
+
+/* Those of what h says is solid, and of no body yet. Returns 0, or -1 when out of memory. */
+static int find(struct making *m, const struct hierarchy *h, const struct mates *mates)
+{
+    struct bodies *b = m->bodies;
     struct shell shell = {.h = h};
-    uint32_t count = 0;
-    size_t room[5] = {0};
-    struct body next = {0};
-    memset(b, 0, sizeof *b);
-    b->of = calloc((size_t)h->built + 1, sizeof *b->of);
-    b->covered = calloc((size_t)h->built + 1, sizeof *b->covered);
-    b->shut = calloc((size_t)h->built + 1, sizeof *b->shut);
-    if (!b->of || !b->covered || !b->shut)
-        return -1;
     for (uint32_t i = 0; i < h->built; i++) {
-        if (b->of[i] || !h->solid[i] || !follow(&shell, mates, i) || !body_lids_find(&shell)
+        if (b->whose[i] || !h->solid[i] || !follow(&shell, mates, i) || !body_lids_find(&shell)
             || !is_convex(&shell) || !body_feet_shut(&shell))
             continue;
-        if (make_room(b, count, &next, room) < 0)
+        if (make_room(m) < 0)
             return -1;
-        measure(&next, b, &shell, mates);
-        if (body_feet_add(b, &shell, mates, count) < 0)
+        measure(&m->next, b, &shell, mates);
+        if (body_feet_add(b, &shell, mates, m->count) < 0)
             return -1;
-        b->body[count++] = next;
         for (int k = 0; k < shell.faces; k++)
-            b->of[shell.face[k]] = count;
-        next = (struct body){next.face + next.faces,
-                             next.corner + next.corners,
-                             next.edge + next.edges,
-                             next.lid + next.lids,
-                             0,
-                             0,
-                             0,
-                             0};
+            mark(b, h, shell.face[k], m->count);
+        const struct body made = b->body[m->count++] = m->next;
+        m->next = (struct body){.face = made.face + made.faces,
+                                .corner = made.corner + made.corners,
+                                .edge = made.edge + made.edges,
+                                .lid = made.lid + made.lids};
     }
+    return 0;
+}
+
+/* Are the faces of a group parts of one polygon, and its outline no more than these? */
+static int is_polygon(const struct hierarchy *h, uint32_t index)
+{
+    const struct element *e = &h->elements[index];
+    const struct face_range range = h->range[index];
+    const struct face *first = &h->faces[h->order[range.from]];
+    double v[4][3], normal[3], sum = 0;
+    if (!e->vertices)
+        return 0;
+    for (uint32_t p = range.from; p < range.to; p++) {
+        const struct face *face = &h->faces[h->order[p]];
+        if (face->input != first->input || face->back != first->back)
+            return 0;
+        sum += h->elements[h->face_element[h->order[p]]].area;
+    }
+    memcpy(v, e->vertex, sizeof v);
+    const double area = polygon_normal(v, e->vertices, normal);
+    return fabs(area - sum) <= BODY_WHOLLY * area;
+}
+
+static void choose_polygons(const struct hierarchy *h, uint32_t index, unsigned char *solid)
+{
+    const struct element *e = &h->elements[index];
+    if (!e->children || is_polygon(h, index)) {
+        solid[index] = 1;
+        return;
+    }
+    for (uint32_t c = 0; c < e->children; c++)
+        choose_polygons(h, e->child + c, solid);
+}
+
+/* Bodies whose polygons are in groups with others', as the tops of two boxes side by side are. They
+ * stand on what they do; but what is in shafts is not of them. */
+static int find_by_polygons(struct making *m, const struct hierarchy *h)
+{
+    struct hierarchy polygons = *h;
+    struct mates mates = {NULL};
+    int status = -1;
+    polygons.solid = calloc((size_t)h->built + 1, sizeof *polygons.solid);
+    if (polygons.solid) {
+        choose_polygons(h, 0, polygons.solid);
+        status = mates_open(&mates, &polygons) < 0 ? -1 : find(m, &polygons, &mates);
+    }
+    mates_close(&mates);
+    free(polygons.solid);
+    return status;
+}
+
+int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates *mates)
+{
+    struct making m = {.bodies = b};
+    const size_t elements = (size_t)h->built + 1;
+    memset(b, 0, sizeof *b);
+    b->of = calloc(elements, sizeof *b->of);
+    b->whose = calloc(elements, sizeof *b->whose);
+    b->covered = calloc(elements, sizeof *b->covered);
+    b->shut = calloc(elements, sizeof *b->shut);
+    if (!b->of || !b->whose || !b->covered || !b->shut || find(&m, h, mates) < 0)
+        return -1;
+    for (uint32_t i = 0; i < h->built; i++)
+        b->of[i] = h->solid[i] ? b->whose[i] : 0;
+    if (find_by_polygons(&m, h) < 0)
+        return -1;
     body_feet_sum(b, h);
     return 0;
 }
@@ -211,6 +289,7 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
 void bodies_close(struct bodies *b)
 {
     free(b->of);
+    free(b->whose);
     free(b->covered);
     free(b->shut);
     free(b->feet);

@@ -37,7 +37,9 @@ struct body_foot {
 };
 
 struct bodies {
-    uint32_t *of;    /* [built]: 1 more than the body that an element is a face of; 0: of none */
+    /* [built]: 1 more than the body that an element is a face of, 0: of none: of what stands in
+     * shafts, and of faces, too, that are in a group with others */
+    uint32_t *of, *whose;
     double *covered; /* [built]: of a face's front, by bodies that stand on it (m2) */
     double *shut;    /* [built]: of that, what bodies have a face on, which light meets (m2) */
     struct body_foot *feet; /* [feet_count]: ascending by `on`, then by the body */

@@ -2,10 +2,10 @@
  *
  * A body stands on a face whose front looks into it where one of its sides, or a lid, lies on that.
  * There the face is covered. Where the side is a face of its own, light from the covered part ends
- * at it, and so does light that would come there through the body; behind a lid is nothing. A face
- * that goes on into the body, or along another of its sides, lines a hollow one, which stands on
- * nothing there. Invariant: once summed up, feet are in the order of what they stand on, then of
- * bodies. [derived here]
+ * at it, and so does light that would come there through the body; behind a lid is nothing. Faces
+ * that go on into the body, or along others of its sides, and nowhere out of it line a hollow one,
+ * which stands on nothing there. Invariant: once summed up, feet are in the order of what they
+ * stand on, then of bodies. [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -133,25 +133,46 @@ static int is_within(const struct shell *s, const struct element *e)
     return 1;
 }
 
-/* Is the solid hollow there, as a house of outer and inner walls in the same planes? Then the face
- * goes on across some edge into the solid, where the inner walls do, or on another of its sides. */
+/* faces that line a hollow solid, at the most: of more it is taken to be hollow; chosen */
+enum { LINING = 256 };
+
+static int is_own(const struct shell *s, uint32_t index)
+{
+    int own = 0;
+    for (int k = 0; k < s->faces; k++)
+        own |= s->face[k] == index;
+    return own;
+}
+
+/* Is the solid hollow there, as a house of outer and inner walls in the same planes? Then those
+ * that the face goes on to across edges, from one to the next, are all in the solid, or on its
+ * sides, and not on one alone. Walls of a room in whose corner it stands go on outside of it. */
 static int is_lining(const struct shell *s, const struct mates *mates, uint32_t solid)
 {
-    const struct element *e = &s->h->elements[solid];
-    for (int i = 0; i < e->vertices; i++) {
-        const int64_t mate = mates->of[solid][i];
-        double high = 0, low = 0;
-        int own = 0;
-        if (mate == NO_MATE || mate % 2)
-            continue;
-        for (int k = 0; k < s->faces; k++)
-            own |= s->face[k] == (uint32_t)(mate / 2);
-        element_reach(e, &s->h->elements[mate / 2], &high, &low);
-        if (!own && (high > s->h->flat || low < -s->h->flat)
-            && is_within(s, &s->h->elements[mate / 2]))
-            return 1;
+    uint32_t list[LINING] = {solid};
+    int count = 1, bends = 0;
+    for (int at = 0; at < count; at++) {
+        const struct element *e = &s->h->elements[list[at]];
+        for (int i = 0; i < e->vertices; i++) {
+            const int64_t across = mates->of[list[at]][i];
+            const uint32_t mate = (uint32_t)(across / 2);
+            double high = 0, low = 0;
+            int k = 0;
+            if (across == NO_MATE || across % 2 || is_own(s, mate))
+                continue;
+            if (!is_within(s, &s->h->elements[mate]))
+                return 0;
+            element_reach(e, &s->h->elements[mate], &high, &low);
+            bends |= high > s->h->flat || low < -s->h->flat;
+            while (k < count && list[k] != mate)
+                k++;
+            if (k == LINING)
+                return 1;
+            list[k] = mate;
+            count += k == count;
+        }
     }
-    return 0;
+    return bends;
 }
 
 int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *mates, uint32_t body)
@@ -193,7 +214,7 @@ void body_feet_sum(struct bodies *b, const struct hierarchy *h)
         const struct body_foot *foot = &b->feet[i];
         b->covered[foot->on] += foot->area;
         b->shut[foot->on] += foot->face != NO_FACE ? foot->area : 0;
-        if (foot->face != NO_FACE && !b->of[foot->solid])
+        if (foot->face != NO_FACE && !b->whose[foot->on])
             add_share(b, h, foot->face, foot->area / h->elements[foot->face].area);
     }
     if (b->feet_count)

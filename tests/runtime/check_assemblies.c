@@ -1,0 +1,136 @@
+/* check_assemblies.c - rooms full of boxes that touch: on top of each other, side by side, in
+ * corners, against walls of tiles, and along edges.
+ *
+ * Boxes and tiles end at the lines of a grid, so what is bare of each face is counted by its cells,
+ * and that is what its row sums to.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "radiosity.h"
+#include "runtime/chance.h"
+#include "runtime/make_polygons.h"
+#include "suite.h"
+
+enum { SIDE = 6, ROOMS = 16, NOBODY = 0 };
+static const double TOLERANCE = 3e-4, TURN = 0.7;
+
+static int cells[SIDE][SIDE][SIDE]; /* whose each is: of a box, from 1 on */
+static double bare[FACES];          /* of each face, a share */
+
+struct block {
+    int low[3], high[3];
+};
+
+static int is_free(int x, int y, int z)
+{
+    return x >= 0 && x < SIDE && y >= 0 && y < SIDE && z >= 0 && z < SIDE
+           && cells[x][y][z] == NOBODY;
+}
+
+/* A side of a block across an axis, with its front outside, or inside of a room. */
+static void side_of(const struct block *b, int axis, int up, int inside, int turned)
+{
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const int in_front = up ? (inside ? b->high[axis] - 1 : b->high[axis])
+                            : (inside ? b->low[axis] : b->low[axis] - 1);
+    double p[3][3] = {{b->low[0], b->low[1], b->low[2]}, {0}, {0}}, all = 0, free_ = 0;
+    p[0][axis] = up ? b->high[axis] : b->low[axis];
+    p[up != inside ? 1 : 2][i] = b->high[i] - b->low[i];
+    p[up != inside ? 2 : 1][j] = b->high[j] - b->low[j];
+    for (int a = b->low[i]; a < b->high[i]; a++)
+        for (int c = b->low[j]; c < b->high[j]; c++) {
+            int at[3];
+            at[axis] = in_front;
+            at[i] = a;
+            at[j] = c;
+            all++;
+            free_ += is_free(at[0], at[1], at[2]);
+        }
+    bare[scene.faces] = free_ / all;
+    for (int k = 0; k < 3 && turned; k++) {
+        const double x = p[k][0], y = p[k][1];
+        p[k][0] = cos(TURN) * x - sin(TURN) * y;
+        p[k][1] = sin(TURN) * x + cos(TURN) * y;
+    }
+    rectangle(p[0], p[1], p[2]);
+}
+
+/* Blocks of up to so many cells a side, where there is room; walls of tiles x tiles each. */
+static void furnish(uint64_t seed, int most, int tiles, int turned)
+{
+    struct block blocks[12];
+    uint64_t state = (seed + 1) << 32;
+    int count = 0, wanted = 4 + (int)(seed % 8);
+    clear();
+    memset(cells, 0, sizeof cells);
+    for (int tried = 0; tried < 200 && count < wanted; tried++) {
+        struct block b;
+        int taken = 0;
+        for (int k = 0; k < 3; k++) {
+            b.low[k] = (int)(SIDE * chance(&state));
+            b.high[k] = b.low[k] + 1 + (int)(most * chance(&state));
+            taken |= b.high[k] > SIDE;
+        }
+        for (int round = 0; round < 2 && !taken; round++)
+            for (int x = b.low[0]; x < b.high[0]; x++)
+                for (int y = b.low[1]; y < b.high[1]; y++)
+                    for (int z = b.low[2]; z < b.high[2]; z++) {
+                        taken |= round == 0 && !is_free(x, y, z);
+                        cells[x][y][z] = round ? count + 1 : cells[x][y][z];
+                    }
+        if (!taken)
+            blocks[count++] = b;
+    }
+    for (int wall = 0; wall < 6; wall++)
+        for (int tile = 0; tile < tiles * tiles; tile++) {
+            struct block b = {{0, 0, 0}, {SIDE, SIDE, SIDE}};
+            const int axis = wall / 2, at[2] = {tile % tiles, tile / tiles}, wide = SIDE / tiles;
+            for (int k = 0; k < 2; k++) {
+                b.low[(axis + 1 + k) % 3] = wide * at[k];
+                b.high[(axis + 1 + k) % 3] = wide * (at[k] + 1);
+            }
+            side_of(&b, axis, wall % 2, 1, turned);
+        }
+    for (int i = 0; i < count; i++)
+        for (int side = 0; side < 6; side++)
+            side_of(&blocks[i], side / 2, side % 2, 0, turned);
+}
+
+static void check_rows(void)
+{
+    static double f[FACES * FACES], area[FACES];
+    factors(scene.faces, TOLERANCE, f, area);
+    for (uint32_t i = 0; i < scene.faces; i++) {
+        double sum = 0;
+        for (uint32_t j = 0; j < scene.faces; j++)
+            sum += f[i * scene.faces + j];
+        ck_assert_msg(fabs(sum - bare[i]) <= 3 * TOLERANCE, "row %u sums to %.5f, not %.5f", i, sum,
+                      bare[i]);
+    }
+}
+
+START_TEST(test_blocks)
+{
+    furnish((uint64_t)_i / 2, 3, _i % 2 ? 3 : 1, _i % 4 / 2);
+    check_rows();
+}
+END_TEST
+
+START_TEST(test_cubes)
+{
+    furnish((uint64_t)_i, 1, _i % 2 ? 6 : 1, _i % 4 / 2);
+    check_rows();
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("assemblies");
+    TCase *t = tcase_create("assemblies");
+    tcase_set_timeout(t, 60);
+    tcase_add_loop_test(t, test_blocks, 0, under_sanitizers() ? 6 : 2 * ROOMS);
+    tcase_add_loop_test(t, test_cubes, 0, under_sanitizers() ? 4 : ROOMS);
+    suite_add_tcase(suite, t);
+    return suite_failures(suite) != 0;
+}
