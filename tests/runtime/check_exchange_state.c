@@ -200,7 +200,7 @@ START_TEST(test_any_place)
     make_room_with_plates();
     ck_assert_int_eq(run_on(1, NULL, 0, NULL, &first), 1);
     int stop = 1, in_values = 0;
-    for (;; stop += under_sanitizers() ? 2 : 1) {
+    for (;; stop += under_sanitizers() ? 4 : 1) {
         struct kept state = {0};
         const int done = run_on(1 + stop % 3, NULL, stop, &state, &second);
         if (!done) {
@@ -310,7 +310,7 @@ START_TEST(test_damaged)
     struct kept state = some_state(_i);
     struct work w = begin(1);
     const struct RadExchangeOptions plain = {0};
-    const size_t step = thorough() ? 1 : under_sanitizers() ? 1009 : 131;
+    const size_t step = thorough() ? 1 : under_sanitizers() ? 4001 : 131;
     for (size_t i = 0; i < state.size; i += i < sizeof(struct state_head) + 16 ? 1 : step) {
         state.bytes[i] ^= (unsigned char)(1 << i % 8);
         refused(&w, &state, plain, NULL, i);
@@ -396,7 +396,7 @@ START_TEST(test_unbelieved)
     const struct kept state = some_state(_i);
     struct kept made = {malloc(state.size), state.size, state.size};
     struct work w = begin(1);
-    const int runs = thorough() ? 20000 : under_sanitizers() ? 50 : 400;
+    const int runs = thorough() ? 20000 : under_sanitizers() ? 25 : 400;
     int believed = 0;
     for (int i = 0; i < runs; i++) {
         memcpy(made.bytes, state.bytes, state.size);

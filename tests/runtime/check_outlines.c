@@ -423,9 +423,9 @@ int main(void)
     TCase *tests = tcase_create("outlines");
     tcase_set_timeout(tests, 120);
     suite_add_tcase(suite, tests);
-    tcase_add_loop_test(tests, test_both_ways, 0, 3);
+    tcase_add_loop_test(tests, test_both_ways, 0, under_sanitizers() ? 1 : 3);
     tcase_add_loop_test(tests, test_loose, 0, 3);
-    tcase_add_loop_test(tests, test_round, 0, under_sanitizers() ? 3 : 8);
+    tcase_add_loop_test(tests, test_round, 0, under_sanitizers() ? 2 : 8);
     tcase_add_test(tests, test_hidden);
     tcase_add_test(tests, test_closed);
     tcase_add_test(tests, test_many_between);
