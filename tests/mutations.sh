@@ -148,7 +148,7 @@ crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from >
 boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
 polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/if (find_by_polygons(&m, h) < 0)/if (0 \&\& find_by_polygons(\&m, h) < 0)/ | runtime/check_assemblies
 walls of a corner line what stands there | runtime/hierarchy/body_feet.c | s/if (!is_within(s, /if (0 \&\& !is_within(s, / | runtime/check_assemblies
-covered rows are not looked at again | runtime/engine/exchange.c | s/return fabs(lacks - covered) > most;/return covered == 0 \&\& lacks > most;/ | runtime/check_assemblies
+covered rows are not looked at again | runtime/engine/exchange.c | s/(!(covered > 0) ../(!(covered > 0) \&\&/ | runtime/check_assemblies
 a corner beyond is between | runtime/hierarchy/flat_hull.c | s/!(across(hull\[count - 2\], hull\[count - 1\], p) > 0)/!turns(hull[count - 2], hull[count - 1], p)/ | runtime/check_flat_groups
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
 emitters of one leaf | runtime/engine/detail.c | s/failed = h->elements\[i\].vertices \&\& /failed = h->elements[i].vertices \&\& !(s->problem.exitance[h->elements[i].face * s->problem.bands] > 0) \&\& / | runtime/check_ambient

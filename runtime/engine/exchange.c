@@ -284,6 +284,10 @@ static int add_rows(struct exchange *x, const struct asking *a, double *sums, do
     return ask(x, a);
 }
 
+/* Of what chance explains: rows that are off by more from what known solids leave of them have more
+ * on them; chosen. */
+static const double UNKNOWN_COVER = 4;
+
 /* Is row i off by more than chance explains? What a row lacks whose light goes elsewhere, too, is
  * not known so well, but of what solids stand on. */
 static int is_off(const struct asking *a, uint32_t i)
@@ -295,7 +299,8 @@ static int is_off(const struct asking *a, uint32_t i)
         return 1;
     if (way->leaves > 0 || way->backs > 0 || (way->covered > 0 && !(covered > 0)))
         return 0;
-    return fabs(lacks - covered) > most;
+    const double off = fabs(lacks - covered);
+    return off > most && (!(covered > 0) || off < UNKNOWN_COVER * most);
 }
 
 /* The rows that are: off[inputs]. Returns their number. */
