@@ -316,12 +316,10 @@ static double misjudged(const struct looking *l, const struct sight_node *node, 
 {
     const struct sight_between *b = l->scratch->between;
     const double hidden = node->piece.area * (m.whole - m.seen);
-    struct face_rule rule;
     double sum;
     if (!l->scratch->limits.many || !(hidden > 0))
         return 0;
-    face_rule_of(&rule, &node->piece, 0);
-    const double off = sight_near(&node->piece, &rule, l->tree, b->list, b->faces, &sum);
+    const double off = sight_near(&node->piece, l->tree, b->list, b->faces, &sum);
     return MISJUDGED * (hidden < sum ? off * hidden / sum : off);
 }
 

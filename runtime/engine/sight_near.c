@@ -6,6 +6,7 @@
  * exactly, and so is what its points make of it. [derived here]
  * SPDX-License-Identifier: MIT */
 #include "engine/sight_near.h"
+#include "engine/face_rule.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "kernel/polygon_factor.h"
@@ -33,14 +34,16 @@ double sight_exchange_through(const struct element *face, const struct element *
     return face->area * (polygon_factor(face, e, 0) + polygon_factor(&back, e, 0));
 }
 
-double sight_near(const struct element *piece, const struct face_rule *rule,
-                  const struct exchange_tree *tree, const uint32_t *faces, int count, double *sum)
+double sight_near(const struct element *piece, const struct exchange_tree *tree,
+                  const uint32_t *faces, int count, double *sum)
 {
+    struct face_rule rule;
     double off = 0, at[FACE_RULE][3], f[FACE_RULE];
+    face_rule_of(&rule, piece, 0);
     *sum = 0;
-    for (int i = 0; i < rule->count; i++)
+    for (int i = 0; i < rule.count; i++)
         for (int k = 0; k < 3; k++)
-            at[i][k] = rule->x[k][i];
+            at[i][k] = rule.x[k][i];
     for (int b = 0; b < count; b++) {
         const struct element *face = &tree->h.elements[faces[b]];
         struct polygon front;
@@ -51,10 +54,10 @@ double sight_near(const struct element *piece, const struct face_rule *rule,
                      piece->normal);
         if (front.n < 3)
             continue;
-        lambert_sums(rule->count, (const double(*)[3])at, piece->normal,
-                     (const double(*)[3])front.v, front.n, f);
-        for (int i = 0; i < rule->count; i++)
-            mean += rule->weight[i] / rule->all * fabs(f[i]);
+        lambert_sums(rule.count, (const double(*)[3])at, piece->normal, (const double(*)[3])front.v,
+                     front.n, f);
+        for (int i = 0; i < rule.count; i++)
+            mean += rule.weight[i] / rule.all * fabs(f[i]);
         off += fabs(sight_exchange_through(face, piece) - piece->area * mean);
         *sum += piece->area * mean;
     }

@@ -4,12 +4,11 @@
 #define SIGHT_NEAR_H
 
 #include "engine/exchange_tree.h"
-#include "engine/face_rule.h"
 
 /* Of what a piece exchanges with each of the faces that is near it, with nothing between: how far
- * its points are off, in all; *sum: what they say of these (m2). */
-double sight_near(const struct element *piece, const struct face_rule *rule,
-                  const struct exchange_tree *tree, const uint32_t *faces, int count, double *sum);
+ * the points inside of it are off, in all; *sum: what they say of these (m2). */
+double sight_near(const struct element *piece, const struct exchange_tree *tree,
+                  const uint32_t *faces, int count, double *sum);
 
 /* What a face and e exchange with nothing between, whichever of its sides the face turns to e
  * (m2). */

@@ -128,7 +128,7 @@ static int meet(const struct shell *s, double n[3][3], const double *const at[3]
 /* Two or three lids along a loop that is not in one plane. Returns 0 when it is of no such. */
 static int add_joined(struct shell *s, struct free_edge **loop, int count)
 {
-    struct free_edge *edge[2 * BODY_CORNERS];
+    struct free_edge *edge[BODY_CORNERS];
     double n[3][3] = {{0}}, any[3];
     const double *at[3];
     int from[4], lids = 0, start = 0;

@@ -21,9 +21,7 @@ START_TEST(test_rows)
     furnish(rooms[_i], 0);
     factors(scene.faces, TOLERANCE, f, areas);
     for (uint32_t i = FLOOR; i < scene.faces; i++) {
-        double sum = 0;
-        for (uint32_t j = 0; j < scene.faces; j++)
-            sum += f[i * scene.faces + j];
+        const double sum = row_sum(f, i);
         if (i < WALLS || (i - WALLS) % TABLE != UNDERSIDE)
             ck_assert_msg(fabs(sum - 1) <= 3 * TOLERANCE, "row %u sums to %.6f", i, sum);
     }

@@ -102,9 +102,7 @@ static void check_rows(void)
     static double f[FACES * FACES], area[FACES];
     factors(scene.faces, TOLERANCE, f, area);
     for (uint32_t i = 0; i < scene.faces; i++) {
-        double sum = 0;
-        for (uint32_t j = 0; j < scene.faces; j++)
-            sum += f[i * scene.faces + j];
+        const double sum = row_sum(f, i);
         ck_assert_msg(fabs(sum - bare[i]) <= 3 * TOLERANCE, "row %u sums to %.5f, not %.5f", i, sum,
                       bare[i]);
     }

@@ -10,6 +10,7 @@
 #include "kernel/sobol.h"
 #include "particles/sobol_sequence.h"
 #include "engine/solve_tracer.h"
+#include "study/closed_forms.h"
 #include "suite.h"
 
 /* A solve that has only been opened, and a tracer through its scene. */
@@ -67,13 +68,6 @@ static struct estimate estimate(const struct traced *x, uint32_t face, const dou
     return e;
 }
 
-/* Of a point on the floor under the corner of a rectangle a x b at height c, facing down. */
-static double corner_factor(double a, double b, double c)
-{
-    double x = a / c, y = b / c, p = sqrt(1 + x * x), q = sqrt(1 + y * y);
-    return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * M_PI);
-}
-
 /* Lamps small and large, near and far: down to a millimetre above the point. No path brings more
  * than both its rays may, E each, which bounds the noise of any lamp. */
 START_TEST(test_corner)
@@ -92,7 +86,7 @@ START_TEST(test_corner)
         made_quad(&x.scene, 1, 0, 0, c, 0, b, 0, a, 0, 0);
         traced_open(&x, 1);
         struct estimate e = estimate(&x, 0, at, 40000);
-        double h = 7 * corner_factor(a, b, c);
+        double h = 7 * closed_corner(a, b, c);
         /* the point is taken 2^-18 of the extent in front of the floor */
         ck_assert_double_eq_tol(e.mean[0], h, 4 * e.se[0] + 2e-5 / c * h);
         ck_assert_double_lt(e.se[0], lamps[i].noise * h / sqrt(40000));

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "radiosity.h"
+#include "study/closed_forms.h"
 #include "suite.h"
 
 static const double PI = 3.14159265358979323846;
@@ -95,13 +96,6 @@ static struct soup *soup_new(void)
     return calloc(1, sizeof(struct soup));
 }
 
-/* A rectangle a x b parallel to the element, c over it, a corner on its normal: B-3. */
-static double parallel(double a, double b, double c)
-{
-    double x = a / c, y = b / c, p = sqrt(1 + x * x), q = sqrt(1 + y * y);
-    return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * PI);
-}
-
 /* One at right angles to it, c away, b wide and a high from the element's plane: B-4. */
 static double upright(double a, double b, double c)
 {
@@ -116,7 +110,7 @@ START_TEST(test_closed_forms)
     struct soup *s = soup_new();
     add_quad(s, 0, o, a, b);
     double *row = see(s, x, up);
-    ck_assert_double_eq_tol(row[0], parallel(1.5, .5, 2), 1e-14);
+    ck_assert_double_eq_tol(row[0], closed_corner(1.5, .5, 2), 1e-14);
     ck_assert_double_eq_tol(row[1], 1 - row[0], 1e-14);
     free(row);
     /* the same to an element on its side, and from its other side, where the back is black */
@@ -125,12 +119,12 @@ START_TEST(test_closed_forms)
     free(row);
     const double above[3] = {0, 0, 4}, down[3] = {0, 0, -1};
     row = see(s, above, down);
-    ck_assert_double_eq_tol(row[2], parallel(1.5, .5, 2), 1e-14);
+    ck_assert_double_eq_tol(row[2], closed_corner(1.5, .5, 2), 1e-14);
     ck_assert(row[0] == 0);
     free(row);
     s->materials[0] = 1; /* or is not */
     row = see(s, above, down);
-    ck_assert_double_eq_tol(row[0], parallel(1.5, .5, 2), 1e-14);
+    ck_assert_double_eq_tol(row[0], closed_corner(1.5, .5, 2), 1e-14);
     ck_assert(row[2] == 0);
     free(row);
     free(s);
@@ -147,10 +141,10 @@ START_TEST(test_shadows)
     struct soup *s = soup_new();
     add_quad(s, 0, o, a, b);
     add_quad(s, 0, mid, c, d);
-    double *row = see(s, x, up), hidden = parallel(.8, .6, 2) - parallel(.2, .6, 2)
-                                          - parallel(.8, .2, 2) + parallel(.2, .2, 2);
+    double *row = see(s, x, up), hidden = closed_corner(.8, .6, 2) - closed_corner(.2, .6, 2)
+                                          - closed_corner(.8, .2, 2) + closed_corner(.2, .2, 2);
     ck_assert_double_eq_tol(row[1], hidden, 1e-14);
-    ck_assert_double_eq_tol(row[0], parallel(1, 1, 2) - hidden, 1e-14);
+    ck_assert_double_eq_tol(row[0], closed_corner(1, 1, 2) - hidden, 1e-14);
     free(row);
     const double wide[3] = {-1, -1, .5}, e[3] = {0, 4, 0}, f[3] = {4, 0, 0};
     add_quad(s, 0, wide, e, f);
@@ -163,8 +157,8 @@ START_TEST(test_shadows)
     add_quad(s, 0, beside, a, b);
     add_quad(s, 0, under, e, f);
     row = see(s, x, up);
-    ck_assert_double_eq_tol(row[0], parallel(1, 1, 2), 1e-14);
-    ck_assert_double_eq_tol(row[1], parallel(1, 2, 2) - parallel(1, 1, 2), 1e-14);
+    ck_assert_double_eq_tol(row[0], closed_corner(1, 1, 2), 1e-14);
+    ck_assert_double_eq_tol(row[1], closed_corner(1, 2, 2) - closed_corner(1, 1, 2), 1e-14);
     ck_assert(row[2] == 0);
     free(row);
     s->count -= 2; /* a sheet against the ceiling's back, whose front is the other way */
@@ -172,7 +166,7 @@ START_TEST(test_shadows)
     add_quad(s, 0, o, b, a);
     const double above[3] = {0, 0, 4}, down[3] = {0, 0, -1};
     row = see(s, above, down);
-    ck_assert_double_eq_tol(row[1], parallel(1, 1, 2), 1e-14);
+    ck_assert_double_eq_tol(row[1], closed_corner(1, 1, 2), 1e-14);
     ck_assert(row[0] == 0 && row[3] == 0);
     free(row);
     free(s);
@@ -286,7 +280,7 @@ START_TEST(test_many)
         sphere += row[i];
     /* its outline from the point: a cone of sine .2, by a polygon a little smaller */
     ck_assert_double_eq_tol(sphere, .04, 2e-4);
-    ck_assert_double_eq_tol(row[0], 4 * parallel(9, 9, 2) - sphere, 1e-11);
+    ck_assert_double_eq_tol(row[0], 4 * closed_corner(9, 9, 2) - sphere, 1e-11);
     ck_assert(row[s->count + 1] < 1e-13);
     free(row);
     const double inside[3] = {.05, .03, 1.02}, aside[3] = {1, 2, -.3};

@@ -12,6 +12,7 @@
 #include "kernel/hash.h"
 #include "radiosity.h"
 #include "runtime/make_polygons.h"
+#include "study/closed_forms.h"
 #include "suite.h"
 
 static const double WIDE = 1.2; /* m */
@@ -123,22 +124,13 @@ START_TEST(test_row)
 }
 END_TEST
 
-/* Of two walls across from each other, so wide. [Howell's catalog, C-11] */
-static double across(double wide)
-{
-    const double a = 1 + wide * wide, root = sqrt(2), w = sqrt(a);
-    return 2 / (3.14159265358979323846 * wide)
-           * (log(sqrt(2 * a / (1 + a))) + wide * root * atan(wide / root) + w * atan(1 / w)
-              - wide * atan(wide) - atan(1));
-}
-
 /* The judge itself: of no sheets, and of one that reaches from wall to wall, the factor is known.
  */
 START_TEST(test_right)
 {
     const double sheet[1] = {WIDE / 2};
-    ck_assert_double_eq_tol(right_factor(sheet, 0, 0.25), across(WIDE), 1e-6);
-    ck_assert_double_eq_tol(right_factor(sheet, 1, 1e-9), across(WIDE / 2), 1e-6);
+    ck_assert_double_eq_tol(right_factor(sheet, 0, 0.25), closed_parallel(WIDE, 1, 1), 1e-6);
+    ck_assert_double_eq_tol(right_factor(sheet, 1, 1e-9), closed_parallel(WIDE / 2, 1, 1), 1e-6);
 }
 END_TEST
 

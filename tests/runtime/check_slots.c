@@ -8,21 +8,15 @@
 #include <stdlib.h>
 #include "radiosity.h"
 #include "runtime/make_polygons.h"
+#include "study/closed_forms.h"
 #include "suite.h"
 
 static const double WIDE = 0.4, HIGH = 0.12; /* of the ceiling, and over the mouth (m) */
 
-/* From a point to the rectangle from its foot to (x, y), c across from it. */
-static double corner_factor(double x, double y, double c)
-{
-    const double p = sqrt(x * x + c * c), q = sqrt(y * y + c * c);
-    return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * 3.14159265358979323846);
-}
-
 static double point_factor(const double low[2], const double high[2], double c)
 {
-    return corner_factor(high[0], high[1], c) - corner_factor(low[0], high[1], c)
-           - corner_factor(high[0], low[1], c) + corner_factor(low[0], low[1], c);
+    return closed_corner(high[0], high[1], c) - closed_corner(low[0], high[1], c)
+           - closed_corner(high[0], low[1], c) + closed_corner(low[0], low[1], c);
 }
 
 /* Of the floor of a pit of that size, below the ceiling, whose middle is off by that. */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include "radiosity.h"
 #include "runtime/make_polygons.h"
+#include "study/closed_forms.h"
 #include "suite.h"
 
 /* The six sides of a box, seen from outside or, with inside, from there: bottom, top, x, y. Sides
@@ -37,14 +38,6 @@ static void room(double wide, double tall, int n)
         rectangle(at, u, v);
     }
     box(low, high, 1, 1);
-}
-
-static double row_sum(const double *f, uint32_t row)
-{
-    double sum = 0;
-    for (uint32_t i = 0; i < scene.faces; i++)
-        sum += f[(size_t)row * scene.faces + i];
-    return sum;
 }
 
 /* Two boxes on a floor of n x n tiles, the upper one smaller, or so much above the lower one. */
@@ -101,10 +94,7 @@ static double past_post(int ends)
  * catalog, C-11. */
 START_TEST(test_post)
 {
-    const double x = 0.2 / 0.5, k = 1 + x * x, pi = 3.14159265358979323846,
-                 square = 2 / (pi * x * x)
-                          * (0.5 * log(k * k / (1 + 2 * x * x))
-                             + 2 * x * sqrt(k) * atan(x / sqrt(k)) - 2 * x * atan(x));
+    const double square = closed_parallel(0.2, 0.2, 0.5);
     ck_assert_double_eq_tol(past_post(0) - past_post(1), 0.04 / 9 * square, 2e-6);
 }
 END_TEST

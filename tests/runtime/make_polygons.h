@@ -63,6 +63,15 @@ static inline RadScene scene_on(RadDevice device)
     return s;
 }
 
+/* Of a matrix of all faces. */
+static inline double row_sum(const double *f, uint32_t row)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < scene.faces; i++)
+        sum += f[(size_t)row * scene.faces + i];
+    return sum;
+}
+
 /* The first rows of the matrix, [rows][scene.faces], and all areas. */
 static inline void factors(uint32_t rows, double tolerance, double *f, double *areas)
 {
