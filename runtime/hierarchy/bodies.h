@@ -4,12 +4,14 @@
 #define BODIES_H
 
 #include "hierarchy/mates.h"
+#include "kernel/constants.h"
 
 /* the most faces of a body: of more, outlines are found edge by edge */
 enum { BODY_FACES = 32, BODY_CORNERS = 4 * BODY_FACES, BODY_EDGES = BODY_CORNERS, BODY_LIDS = 4 };
 
-/* a share of a face that is rounding */
-#define BODY_WHOLLY 1e-9
+/* a share of a face that is rounding, as of corners of nine digits; chosen: what a group's outline
+ * may be off by */
+#define BODY_WHOLLY GROUP_GAPS
 
 /* From a corner to another, by their places among the body's, and the sides at it, by theirs, lids
  * behind those with faces: the left one is on the left as seen from outside. */

@@ -13,7 +13,7 @@
 #include "suite.h"
 
 enum { SIDE = 6, ROOMS = 16, NOBODY = 0 };
-static const double TOLERANCE = 3e-4, TURN = 0.7;
+static const double TOLERANCE = 3e-4, TURN = 0.7, ROUNDED = 1e-6;
 
 static int cells[SIDE][SIDE][SIDE]; /* whose each is: of a box, from 1 on */
 static double bare[FACES];          /* of each face, a share */
@@ -108,6 +108,15 @@ static void check_rows(void)
     }
 }
 
+/* Rooms of some metres whose objects were moved into their places and rounded each by itself, to
+ * seven digits: corners of neighbours are next to each other. */
+static void round_corners(double size, uint64_t seed)
+{
+    uint64_t state = (seed + 1) << 32;
+    for (uint32_t i = 0; i < 3 * scene.positions_used; i++)
+        scene.positions[i] = size * scene.positions[i] + ROUNDED * (chance(&state) - 0.5);
+}
+
 START_TEST(test_blocks)
 {
     furnish((uint64_t)_i / 2, 3, _i % 2 ? 3 : 1, _i % 4 / 2);
@@ -122,6 +131,14 @@ START_TEST(test_cubes)
 }
 END_TEST
 
+START_TEST(test_rounded)
+{
+    furnish((uint64_t)_i, 1 + _i % 3, 1 + _i % 2 * 2, 1);
+    round_corners(0.4 + 0.02 * _i, (uint64_t)_i);
+    check_rows();
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("assemblies");
@@ -129,6 +146,7 @@ int main(void)
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_blocks, 0, under_sanitizers() ? 6 : 2 * ROOMS);
     tcase_add_loop_test(t, test_cubes, 0, under_sanitizers() ? 4 : ROOMS);
+    tcase_add_loop_test(t, test_rounded, 0, under_sanitizers() ? 4 : ROOMS);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
