@@ -148,6 +148,11 @@ crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from >
 boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
 polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/if (find_by_polygons(&m, h) < 0)/if (0 \&\& find_by_polygons(\&m, h) < 0)/ | runtime/check_assemblies
 walls of a corner line what stands there | runtime/hierarchy/body_feet.c | s/if (!is_within(s, /if (0 \&\& !is_within(s, / | runtime/check_assemblies
+shares held to nine digits | runtime/hierarchy/bodies.h | s/BODY_WHOLLY GROUP_GAPS/BODY_WHOLLY 1e-9/ | runtime/check_assemblies
+places of equal corners | runtime/hierarchy/mates.c | s/PLACES_APART . h->flat/0/ | runtime/check_bodies
+corners that faces round apart are two | runtime/hierarchy/bodies.c | s/PLACES_APART . flat/0 * flat/ | runtime/check_bodies
+tiles of equal corners | runtime/hierarchy/group_outline.c | s/PLACES_APART . o->flat/0/ | runtime/check_flat_groups
+places parted by one axis | runtime/hierarchy/places.c | s/whole == 3/whole == 1/ | runtime/check_bodies
 covered rows are not looked at again | runtime/engine/exchange.c | s/(!(covered > 0) ../(!(covered > 0) \&\&/ | runtime/check_assemblies
 a corner beyond is between | runtime/hierarchy/flat_hull.c | s/!(across(hull\[count - 2\], hull\[count - 1\], p) > 0)/!turns(hull[count - 2], hull[count - 1], p)/ | runtime/check_flat_groups
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice

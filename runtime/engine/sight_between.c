@@ -105,7 +105,7 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
         front[b->faces] = (signed char)hidden_front(shaft, e);
         if (!front[b->faces] && !candidates_parted(&t->h, shaft, t->host.ray_offset, list[i]))
             continue;
-        if (hidden_bent(e, shaft->flat)) { /* edges and planes tell two outlines */
+        if (hidden_bent(e, t->host.flat)) { /* edges and planes tell two outlines */
             if (!front[b->faces] && !candidates_meets(&t->h, shaft, t->host.ray_offset, list[i]))
                 continue;
             b->bent = 1;

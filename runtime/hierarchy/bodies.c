@@ -14,6 +14,7 @@
 #include <string.h>
 #include "hierarchy/bodies.h"
 #include "hierarchy/body_feet.h"
+#include "hierarchy/places.h"
 #include "hierarchy/polygon.h"
 #include "hierarchy/reach.h"
 #include "kernel/constants.h"
@@ -72,15 +73,18 @@ static int is_convex(const struct shell *s)
     return 1;
 }
 
-/* The place of a corner among so many, the next one when it is new. Those that faces round apart
- * are two. */
-static int place_of(double (*corners)[3], int count, const double p[3])
+/* The place of a corner among so many, the next one when it is new. Corners are one that faces
+ * round apart. */
+static int place_of(double (*corners)[3], int count, const double p[3], double flat)
 {
-    int at = 0;
-    while (at < count && memcmp(corners[at], p, sizeof corners[at]) != 0)
-        at++;
-    memcpy(corners[at], p, sizeof corners[at]);
-    return at;
+    for (int at = 0; at < count; at++) {
+        double apart[3];
+        sub3(apart, corners[at], p);
+        if (length3(apart) <= PLACES_APART * flat)
+            return at;
+    }
+    memcpy(corners[count], p, sizeof corners[count]);
+    return count;
 }
 
 /* Sides: of each face the first that lies in one plane with it. Returns how many; side[]: which of
@@ -129,7 +133,7 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
                 right = side[other];
             }
             for (int end = 0; end < 2; end++) {
-                at[end] = place_of(corners, count, e->vertex[(i + end) % e->vertices]);
+                at[end] = place_of(corners, count, e->vertex[(i + end) % e->vertices], s->h->flat);
                 count += at[end] == count;
             }
             edges[body->edges++] = (struct body_edge){(uint8_t)at[0], (uint8_t)at[1],
@@ -138,9 +142,9 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
     }
     for (int i = 0; i < s->joints; i++) {
         const struct lid_joint *joint = &s->joint[i];
-        const int from = place_of(corners, count, joint->from);
+        const int from = place_of(corners, count, joint->from, s->h->flat);
         count += from == count;
-        const int to = place_of(corners, count, joint->to);
+        const int to = place_of(corners, count, joint->to, s->h->flat);
         count += to == count;
         edges[body->edges++] =
             (struct body_edge){(uint8_t)from, (uint8_t)to, (uint8_t)(sides + joint->left),

@@ -19,8 +19,8 @@
 #include "hierarchy/group_outline.h"
 #include "kernel/constants.h"
 
-struct directed { /* an edge, for cancelling */
-    double a[2], b[2];
+struct directed { /* an edge, for cancelling, from the smaller of its places */
+    uint32_t a, b;
 };
 
 int outliner_open(struct outliner *o, const struct hierarchy *plain, double flat)
@@ -30,7 +30,9 @@ int outliner_open(struct outliner *o, const struct hierarchy *plain, double flat
     o->points = malloc((4 * n + 1) * sizeof *o->points);
     o->hull = malloc((4 * n + 1) * sizeof *o->hull);
     o->edges = malloc((8 * n + 1) * sizeof *o->edges);
-    return o->points && o->hull && o->edges ? 0 : -1;
+    o->corners = malloc((4 * n + 1) * sizeof *o->corners);
+    o->place = malloc((4 * n + 1) * sizeof *o->place);
+    return o->points && o->hull && o->edges && o->corners && o->place ? 0 : -1;
 }
 
 void outliner_close(struct outliner *o)
@@ -38,6 +40,8 @@ void outliner_close(struct outliner *o)
     free(o->points);
     free(o->hull);
     free(o->edges);
+    free(o->corners);
+    free(o->place);
 }
 
 static const struct element *face_of(const struct outliner *o, uint32_t face)
@@ -194,7 +198,10 @@ void group_outline(struct outliner *o, const struct group_frame *f, struct group
 
 static int compare_edges(const void *a, const void *b)
 {
-    return memcmp(a, b, sizeof(struct directed));
+    const struct directed *x = a, *y = b;
+    if (x->a != y->a)
+        return x->a < y->a ? -1 : 1;
+    return (x->b > y->b) - (x->b < y->b);
 }
 
 /* Do both ends lie on one side of the outline, to `near`? */
@@ -225,6 +232,19 @@ int group_fills(const struct group_frame *f, const struct element *e)
     return fills(f, e, corner);
 }
 
+/* The places of all corners of some faces, one after the other: what is one in the file is one
+ * here, whatever its last digit. */
+static void find_places(struct outliner *o, struct group_faces faces)
+{
+    size_t n = 0;
+    for (uint32_t i = 0; i < faces.count; i++) {
+        const struct element *g = face_of(o, faces.face[i]);
+        for (int c = 0; c < g->vertices; c++, n++)
+            o->corners[n] = (struct corner){g->vertex[c], n};
+    }
+    places_find(o->corners, n, PLACES_APART * o->flat, o->place);
+}
+
 /* Edges run both ways between neighbours: written from the smaller end, with which way in the
  * list's half. */
 int group_tiles(struct outliner *o, const struct group_frame *f, struct group_faces faces,
@@ -233,25 +253,24 @@ int group_tiles(struct outliner *o, const struct group_frame *f, struct group_fa
     double corner[4][2], near = o->flat;
     size_t count[2] = {0, 0};
     struct directed *half[2] = {o->edges, o->edges + 4 * (size_t)faces.count};
+    const uint32_t *place = o->place; /* of the face's corners */
     if (!fills(f, e, corner))
         return 0;
+    find_places(o, faces);
     for (uint32_t i = 0; i < faces.count; i++) {
         const struct element *g = face_of(o, faces.face[i]);
         for (int c = 0; c < g->vertices; c++) {
+            const int next = c + 1 < g->vertices ? c + 1 : 0;
             double end[2][2];
             in_frame(f, g->vertex[c], end[0]);
-            in_frame(f, g->vertex[c + 1 < g->vertices ? c + 1 : 0], end[1]);
-            if (on_side(corner, e->vertices, end, near))
+            in_frame(f, g->vertex[next], end[1]);
+            if (place[c] == place[next] || on_side(corner, e->vertices, end, near))
                 continue;
-            for (int k = 0; k < 4; k++) { /* corners that are one in the file are one here */
-                end[k / 2][k % 2] = floor(end[k / 2][k % 2] / near * 0.125 + 0.5);
-                end[k / 2][k % 2] += 0.0; /* no negative zero */
-            }
-            int turned = end[0][0] > end[1][0] || (end[0][0] >= end[1][0] && end[0][1] > end[1][1]);
-            struct directed *d = &half[turned][count[turned]++];
-            memcpy(d->a, end[turned], sizeof d->a);
-            memcpy(d->b, end[!turned], sizeof d->b);
+            const int turned = place[c] > place[next];
+            half[turned][count[turned]++] =
+                (struct directed){place[turned ? next : c], place[turned ? c : next]};
         }
+        place += g->vertices;
     }
     if (count[0] != count[1])
         return 0;

@@ -4,12 +4,15 @@
 #define GROUP_OUTLINE_H
 
 #include "hierarchy/hierarchy.h"
+#include "hierarchy/places.h"
 
 struct outliner {
     const struct hierarchy *plain; /* measured face elements */
     double flat;                   /* m */
     double (*points)[2], (*hull)[2];
     struct directed *edges;
+    struct corner *corners;
+    uint32_t *place; /* of the corners */
 };
 
 /* The frame of a plane, along the smallest rectangle around its faces. */

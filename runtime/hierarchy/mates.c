@@ -1,72 +1,70 @@
 /* mates.c - who stands across each edge of what stands in shafts.
  *
- * Edges are sorted by the places of their ends, on a grid as coarse as groups' faces reach out of
- * their planes: outlines of groups are computed, and miss the corners of their neighbours by
- * rounding. Two elements alone at an edge are mates. Of more, as where a wall's cells end at the
- * edge of a box that stands there, those are that have a solid between them, behind both: as one
- * turns around the edge, where it begins and where it ends, one after the other; of an odd number
- * one is left over.
- * Ends that fall in two cells of the grid though they are one place lose a mate, which nobody may
- * rely on to be there.
- * Invariant: mates are mutual.
+ * Edges are sorted by the places of their ends. What is one place is as coarse as groups' faces
+ * reach out of their planes: outlines of groups are computed, and miss the corners of their
+ * neighbours by rounding. Two elements alone at an edge are mates. Of more, as where a wall's cells
+ * end at the edge of a box that stands there, those are that have a solid between them, behind
+ * both: as one turns around the edge, where it begins and where it ends, one after the other; of an
+ * odd number one is left over. Invariant: mates are mutual.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/mates.h"
+#include "hierarchy/places.h"
 #include "kernel/lambert.h"
 
 struct mate_edge {
-    double end[2][3]; /* the smaller one first */
+    uint32_t end[2]; /* places, the smaller one first */
     uint32_t element;
     uint8_t side, turned; /* turned: it runs from the larger end to the smaller */
 };
 
 struct edge_list {
     const struct hierarchy *h;
-    struct mate_edge *edges;
+    struct mate_edge *edges; /* of each element one after the other */
+    struct corner *corners;  /* where they begin */
     size_t count;
 };
-
-static int compare_ends(const double *a, const double *b, int n)
-{
-    for (int k = 0; k < n; k++)
-        if (a[k] < b[k] || a[k] > b[k])
-            return a[k] < b[k] ? -1 : 1;
-    return 0;
-}
 
 static int compare_edges(const void *a, const void *b)
 {
     const struct mate_edge *x = a, *y = b;
-    int order = compare_ends(x->end[0], y->end[0], 6);
-    if (order)
-        return order;
+    for (int end = 0; end < 2; end++)
+        if (x->end[end] != y->end[end])
+            return x->end[end] < y->end[end] ? -1 : 1;
     return x->element < y->element ? -1 : x->element > y->element ? 1 : x->side - y->side;
+}
+
+static int one_edge(const struct mate_edge *a, const struct mate_edge *b)
+{
+    return a->end[0] == b->end[0] && a->end[1] == b->end[1];
 }
 
 static void add_edges(struct edge_list *list, uint32_t index)
 {
     const struct element *e = &list->h->elements[index];
-    double cell = 8 * list->h->flat;
-    for (int i = 0; i < e->vertices; i++) {
-        struct mate_edge edge = {.element = index, .side = (uint8_t)i};
-        const double *v[2] = {e->vertex[i], e->vertex[i + 1 < e->vertices ? i + 1 : 0]};
-        for (int end = 0; end < 2; end++)
-            for (int k = 0; k < 3; k++)
-                edge.end[end][k] = cell > 0 ? floor(v[end][k] / cell + 0.5) : v[end][k];
-        int order = compare_ends(edge.end[0], edge.end[1], 3);
-        if (order == 0)
-            continue;
-        if (order > 0) {
-            double swap[3];
-            memcpy(swap, edge.end[0], sizeof swap);
-            memcpy(edge.end[0], edge.end[1], sizeof swap);
-            memcpy(edge.end[1], swap, sizeof swap);
-            edge.turned = 1;
-        }
-        list->edges[list->count++] = edge;
+    for (int i = 0; i < e->vertices; i++, list->count++) {
+        list->edges[list->count] = (struct mate_edge){.element = index, .side = (uint8_t)i};
+        list->corners[list->count] = (struct corner){e->vertex[i], list->count};
     }
+}
+
+/* Sets the ends of all edges. Those whose ends are one place are left out. */
+static void set_ends(struct edge_list *list, const uint32_t *place)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < list->count; i++) {
+        struct mate_edge edge = list->edges[i];
+        const int last = edge.side + 1 == list->h->elements[edge.element].vertices;
+        const uint32_t from = place[i], to = place[last ? i - edge.side : i + 1];
+        edge.turned = from > to;
+        edge.end[edge.turned] = from;
+        edge.end[!edge.turned] = to;
+        if (from != to)
+            list->edges[kept++] = edge;
+    }
+    list->count = kept;
 }
 
 /* What stands in shafts below an element, as candidates.c finds it. */
@@ -144,31 +142,41 @@ static void turn_around(struct mates *mates, const struct hierarchy *h, struct m
             make_mates(mates, &edges[i], &edges[(i + 1) % count]);
 }
 
+static void find_mates(struct mates *mates, const struct edge_list *list)
+{
+    struct mate_edge *edges = list->edges;
+    qsort(edges, list->count, sizeof *edges, compare_edges);
+    for (size_t from = 0, to; from < list->count; from = to) {
+        for (to = from + 1; to < list->count && one_edge(&edges[from], &edges[to]); to++)
+            ;
+        if (to - from == 2)
+            make_mates(mates, &edges[from], &edges[from + 1]);
+        else if (to - from > 2)
+            turn_around(mates, list->h, &edges[from], to - from);
+    }
+}
+
 int mates_open(struct mates *mates, const struct hierarchy *h)
 {
-    struct edge_list list = {h, malloc(4 * (size_t)h->face_count * sizeof *list.edges), 0};
+    const size_t most = 4 * (size_t)h->face_count;
+    struct edge_list list = {h, malloc(most * sizeof *list.edges),
+                             malloc(most * sizeof *list.corners), 0};
+    uint32_t *place = malloc(most * sizeof *place);
     mates->of = malloc(h->built * sizeof *mates->of);
-    if (!list.edges || !mates->of) {
-        free(list.edges);
-        return -1;
-    }
-    for (uint32_t i = 0; i < h->built; i++)
+    const int ready = list.edges && list.corners && place && mates->of;
+    for (uint32_t i = 0; i < h->built && ready; i++)
         for (int k = 0; k < 4; k++)
             mates->of[i][k] = NO_MATE;
-    collect(&list, 0);
-    qsort(list.edges, list.count, sizeof *list.edges, compare_edges);
-    for (size_t from = 0, to; from < list.count; from = to) {
-        struct mate_edge *a = &list.edges[from];
-        for (to = from + 1; to < list.count; to++)
-            if (compare_ends(a->end[0], list.edges[to].end[0], 6) != 0)
-                break;
-        if (to - from == 2)
-            make_mates(mates, a, a + 1);
-        else if (to - from > 2)
-            turn_around(mates, h, a, to - from);
+    if (ready) {
+        collect(&list, 0);
+        places_find(list.corners, list.count, PLACES_APART * h->flat, place);
+        set_ends(&list, place);
+        find_mates(mates, &list);
     }
     free(list.edges);
-    return 0;
+    free(list.corners);
+    free(place);
+    return ready ? 0 : -1;
 }
 
 void mates_close(struct mates *mates)

@@ -437,6 +437,35 @@ START_TEST(test_which)
 }
 END_TEST
 
+/* Boxes whose faces are rounded each by itself: corners that should be one are next to each other,
+ * some of them on either side of any line there is. */
+START_TEST(test_rounded)
+{
+    enum { BOXES = 125 };
+    static const double ROUNDED = 1e-7;
+    struct scene s;
+    struct exchange_tree t;
+    uint64_t state = 1;
+    open_squares(&s);
+    for (int i = 0; i < BOXES; i++) {
+        const double at[3] = {0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5 % 5), 0.1 + 0.05 * (i / 25)};
+        double edges[3][3];
+        chance_edges(&state, 0.02, edges);
+        made_box(&s, 0, at, (const double(*)[3])edges, 0);
+    }
+    for (uint32_t f = 0; f < s.face_count; f++)
+        for (int i = 0; i < 12; i++)
+            s.faces[f].vertex[i / 3][i % 3] += ROUNDED * (chance(&state) - 0.5);
+    open_tree(&t, &s);
+    for (uint32_t f = 2; f < s.face_count; f++)
+        ck_assert_uint_gt(t.bodies.of[t.h.face_element[f]], 0);
+    for (int i = 0; i < BOXES; i++)
+        ck_assert_int_eq(t.bodies.body[i].corners, 8);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 /* The icosahedron between the squares; the great one joins the same corners the long way, bends out
  * across each edge, and runs through itself: it is no solid. */
 START_TEST(test_great)
@@ -499,6 +528,7 @@ int main(void)
     tcase_add_test(tests, test_low);
     tcase_add_test(tests, test_short_side);
     tcase_add_test(tests, test_which);
+    tcase_add_test(tests, test_rounded);
     tcase_add_loop_test(tests, test_horizon, 0, 2);
     return suite_failures(suite);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 #include "engine/exchange.h"
 #include "hierarchy/flat_hull.h"
+#include "hierarchy/group_hierarchy.h"
 #include "kernel/polygon_factor.h"
 #include "runtime/chance.h"
 #include "scene/make_scene.h"
@@ -292,6 +293,50 @@ START_TEST(test_prisms)
 }
 END_TEST
 
+/* How many groups of a wall of tiles around a window are as good as one face. `rounded`: the most
+ * that each corner of each tile is off by, by itself. */
+static int solid_groups(double size, double rounded)
+{
+    enum { CELLS = 12, LOW = 4, HIGH = 7 };
+    struct scene s;
+    struct hierarchy plain, h;
+    uint64_t state = 3;
+    int solid = 0;
+    made_open(&s);
+    made_material(&s, 0.5, 0);
+    for (int i = 0; i < CELLS; i++)
+        for (int j = 0; j < CELLS; j++) {
+            double p[4][3];
+            if (i >= LOW && i < HIGH && j >= LOW && j < HIGH)
+                continue;
+            for (int c = 0; c < 4; c++) {
+                p[c][0] = size * (i + (c == 1 || c == 2)) / CELLS;
+                p[c][1] = size * (j + (c >= 2)) / CELLS;
+                p[c][2] = 0;
+                turn(p[c]);
+                for (int k = 0; k < 3; k++)
+                    p[c][k] += rounded * (2 * chance(&state) - 1);
+            }
+            made_face(&s, 0, 4, (const double(*)[3])p);
+        }
+    ck_assert_int_eq(hierarchy_build(&plain, s.faces, s.face_count), 0);
+    ck_assert_int_eq(hierarchy_build_groups(&h, &plain, 1e-6), 0);
+    for (uint32_t e = 0; e < h.built; e++)
+        solid += h.solid[e] && h.elements[e].children;
+    hierarchy_free(&h);
+    hierarchy_free(&plain);
+    made_close(&s);
+    return solid;
+}
+
+START_TEST(test_rounded)
+{
+    const double size = 1 + 0.01 * _i;
+    ck_assert_int_gt(solid_groups(size, 0), 1);
+    ck_assert_int_eq(solid_groups(size, 2e-7), solid_groups(size, 0));
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("flat groups");
@@ -302,6 +347,7 @@ int main(void)
     tcase_add_test(c, test_shapes);
     tcase_add_loop_test(c, test_cube, 0, 3);
     tcase_add_test(c, test_prisms);
+    tcase_add_loop_test(c, test_rounded, 0, 20);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
