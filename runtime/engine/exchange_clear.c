@@ -155,6 +155,10 @@ static inline double rest_square(double a, double b, double t, double quad, doub
               + lopsided * (v * odd * odd + rise * rise * rises));
 }
 
+/* Of faces that may reach to each other no estimate of the second order says that it does: of two
+ * in parallel, a hair apart, all terms are small, and what they exchange is not. */
+static const double NEAR_DOUBT = 2;
+
 /* The exchange areas of face i, normal n, with the faces of a range, normal -m; and how far they
  * may be off, as a share of what is allowed, squared. Of two faces they are the same numbers from
  * either: all that is added or multiplied is the same but for its order. */
@@ -206,8 +210,10 @@ TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const do
                         a * a * own_rise + b * b * rise, most * most);
         e = (front & (e > 0)) ? e < least ? e : least : 0;
         double limit = tolerance / CLEAR_REST * (e > SIGHT_FLOOR * least ? e : SIGHT_FLOOR * least);
+        double off = scale * scale * rest / (limit * limit);
         out[j] = e;
-        doubt[j] = front ? scale * scale * rest / (limit * limit) : INFINITY;
+        off = trace * t > CLEAR_NEAR && off < NEAR_DOUBT ? NEAR_DOUBT : off;
+        doubt[j] = front ? off : INFINITY;
     }
 }
 
@@ -342,7 +348,7 @@ static int rules_do(const struct exchange_faces *p, uint32_t i, uint32_t j, doub
         trace += p->moment[k][i] + p->moment[k][j];
     }
     double less = trace / square;
-    return less < CLEAR_RULES_NEAR && doubt * less * less < 1;
+    return less < CLEAR_NEAR && doubt * less * less < 1;
 }
 
 /* Is every edge of the one parallel to every edge of the other, or at a right angle? Then the

@@ -1,4 +1,5 @@
-/* check_slots.c - view factors through narrow openings, in scenes of more than a few polygons.
+/* check_slots.c - view factors through narrow openings, and across gaps of a hair, in scenes of
+ * more than a few polygons.
  *
  * The floor of a pit sees of a ceiling what its mouth leaves. From a point of the floor that is a
  * rectangle, so right is the mean, over points of the floor, of the factor from a point to a
@@ -7,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "radiosity.h"
+#include "runtime/chance.h"
 #include "runtime/make_polygons.h"
 #include "study/closed_forms.h"
 #include "suite.h"
@@ -71,12 +73,64 @@ START_TEST(test_pit)
 }
 END_TEST
 
+/* What rectangles across from each other exchange, as a sum over both one's ends and the other's.
+ * [Howell's catalog, C-13] */
+static double across_gap(double u, double v, double z)
+{
+    const double p = sqrt(u * u + z * z), q = sqrt(v * v + z * z);
+    return (v * p * atan(v / p) + u * q * atan(u / q) - z * z / 2 * log(u * u + v * v + z * z))
+           / (2 * M_PI);
+}
+
+/* A plate over a floor of tiles, of which it covers parts: as where a box does not quite stand on
+ * it. What a tile gets is where they face each other, far from where both have their middles. */
+START_TEST(test_hair)
+{
+    enum { TILES = 10 };
+    static double f[FACES], area[FACES];
+    uint64_t state = (uint64_t)_i << 32;
+    double at[3] = {0}, size[2], side[2], u[3] = {0}, v[3] = {0};
+    for (int k = 0; k < 2; k++) {
+        side[k] = 0.3 + chance(&state);
+        size[k] = 0.3 + chance(&state);
+        at[k] = chance(&state) * (TILES * side[k] - size[k]);
+    }
+    at[2] = pow(10, -2 - _i % 3);
+    u[0] = size[0];
+    v[1] = size[1];
+    clear();
+    rectangle(at, v, u);
+    u[0] = side[0];
+    v[1] = side[1];
+    for (int i = 0; i < TILES * TILES; i++) {
+        const double low[3] = {i % TILES * side[0], i / TILES * side[1], 0};
+        rectangle(low, u, v);
+    }
+    factors(1, 0, f, area);
+    for (int i = 0; i < TILES * TILES; i++) {
+        const double low[2] = {i % TILES * side[0], i / TILES * side[1]};
+        double right = 0;
+        for (int ends = 0; ends < 16; ends++) {
+            double apart[2], sign = 1;
+            for (int k = 0; k < 2; k++) {
+                const int mine = ends >> k & 1, its = ends >> (k + 2) & 1;
+                apart[k] = low[k] + its * side[k] - (at[k] + mine * size[k]);
+                sign = mine == its ? sign : -sign;
+            }
+            right += sign * across_gap(apart[0], apart[1], at[2]) / (size[0] * size[1]);
+        }
+        ck_assert_double_eq_tol(f[1 + i], right, 3e-5);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("slots");
     TCase *t = tcase_create("slots");
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_pit, 0, sizeof pit / sizeof *pit);
+    tcase_add_loop_test(t, test_hair, 0, 60);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
