@@ -520,9 +520,10 @@
 /* what the second order leaves out may be so many times what is estimated: the most by which it
  * was in 30,000 random pairs (exchange_clear.c) */
 #define CLEAR_REST 3.0
-/* of distance squared: the variance of two faces' points together. Above it the faces may reach as
- * far as to each other, where neither the second order nor rules of points say anything: no corner
- * of a convex polygon of 3 or 4 is farther from its middle than the root of 8 of its variances */
+/* of distance squared: the variance of two faces' points together. Above it they may reach as far as
+ * to each other, where neither the second order nor rules of points say anything. No corner of a
+ * convex polygon is farther from its middle than the root of 8 variances, as of a needle; two
+ * such roots are at most that of 16 of their sum */
 #define CLEAR_NEAR (1 / 16.0)
 /* radii of the face with the points: nearer faces are not smooth enough along it; chosen, with the
  * estimate's excess in random pairs (clear_points.h), which is the next */
