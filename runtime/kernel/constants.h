@@ -520,8 +520,8 @@
 /* what the second order leaves out may be so many times what is estimated: the most by which it
  * was in 30,000 random pairs (exchange_clear.c) */
 #define CLEAR_REST 3.0
-/* of distance squared: the variance of two faces' points together. Above it they may reach as far as
- * to each other, where neither the second order nor rules of points say anything. No corner of a
+/* of distance squared: the variance of two faces' points together. Above it they may reach as far
+ * as to each other, where neither the second order nor rules of points say anything. No corner of a
  * convex polygon is farther from its middle than the root of 8 variances, as of a needle; two
  * such roots are at most that of 16 of their sum */
 #define CLEAR_NEAR (1 / 16.0)
