@@ -248,7 +248,7 @@ static double share(struct mean m)
 static double seen_by_rays(const struct element *r, const struct element *s,
                            const struct exchange_tree *t, int rays, double clear, double *error)
 {
-    const double share = sight_rays(r, s, &t->host, rays, error);
+    const double share = sight_rays(r, s, rays_host(t->rays), rays, error);
     *error *= clear;
     return clear * share;
 }

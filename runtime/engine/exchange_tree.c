@@ -1,6 +1,12 @@
 /* exchange_tree.c - a hierarchy with flat groups, and a host over it: rays are the scene's, shafts
  * are asked for groups.
+ *
+ * What touches is told by a share of how large the scene is, since rays, in single precision, tell
+ * no less (visibility/rays.c). Shafts and points do: one face far off would make all that is near
+ * touch. So for them it is a share of where most corners are, or of how far that is from where
+ * coordinates begin, which may be rounded as floats are.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_tree.h"
@@ -12,10 +18,26 @@ static const struct exchange_tree *tree_of(const struct host *host)
     return (const struct exchange_tree *)(const void *)host;
 }
 
+/* Oracles' rays start off surfaces by as much as touches here; they go on from as far off along
+ * themselves as rays must. */
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     const struct host *rays = rays_host(tree_of(host)->rays);
-    return rays->occluded(rays, count, segments);
+    const double more = rays->ray_offset - host->ray_offset;
+    struct segment shorter[SEGMENTS_MAX];
+    if (!(more > 0))
+        return rays->occluded(rays, count, segments);
+    for (int i = 0; i < count; i++) {
+        const double *from = segments[i].from, *to = segments[i].to;
+        double along[3];
+        sub3(along, to, from);
+        const double length = length3(along), t = length > 2 * more ? more / length : 0.5;
+        for (int k = 0; k < 3; k++) {
+            shorter[i].from[k] = from[k] + t * along[k];
+            shorter[i].to[k] = to[k] - t * along[k];
+        }
+    }
+    return rays->occluded(rays, count, shorter);
 }
 
 /* Faces found in a shaft, and whether they hide all. */
@@ -50,13 +72,46 @@ static void corners(const struct host *host, uint32_t element, struct polygon *p
     candidates_corners(&tree_of(host)->h, element, polygon);
 }
 
+/* The share of corners that is left out at either end of each axis; and how many times as large as
+ * the box of the others a scene may be to count whole. Chosen: a furnished room has its walls. */
+static const double FAR_OFF = 0.05, LARGE = 4;
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* How large a scene is for what is near in it, of how large it is. `room`: [4 * count]. */
+static double near_share(const struct face *faces, uint32_t count, double *room)
+{
+    double all = 0, most = 0, from_origin = 0;
+    for (int k = 0; k < 3; k++) {
+        size_t n = 0;
+        for (uint32_t i = 0; i < count; i++)
+            for (uint32_t v = 0; v < faces[i].vertices; v++)
+                room[n++] = faces[i].vertex[v][k];
+        if (n == 0)
+            return 1;
+        qsort(room, n, sizeof *room, compare_numbers);
+        const size_t out = (size_t)(FAR_OFF * (double)n);
+        const double low = room[out], high = room[n - 1 - out], wide = room[n - 1] - room[0];
+        all += wide * wide;
+        most += (high - low) * (high - low);
+        from_origin = fmax(from_origin, fmax(fabs(low), fabs(high)));
+    }
+    const double near = fmax(LARGE * sqrt(most), from_origin);
+    return near * near < all ? near / sqrt(all) : 1;
+}
+
 int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count,
                        int threads, const char **cause)
 {
-    double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black);
+    double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black),
+           *room = malloc(4 * (size_t)face_count * sizeof *room);
     memset(t, 0, sizeof *t);
     *cause = "out of memory";
-    if (!unit || !black || face_count > UINT32_MAX / 16
+    if (!unit || !black || !room || face_count > UINT32_MAX / 16
         || hierarchy_build(&t->plain, faces, face_count) < 0)
         goto fail;
     for (uint32_t i = 0; i < face_count; i++)
@@ -65,11 +120,14 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
     if (!t->rays || (rays_in_the_way(t->rays) && rays_build(t->rays, cause) < 0))
         goto fail;
     *cause = "out of memory";
-    if (hierarchy_build_groups(&t->h, &t->plain, rays_host(t->rays)->flat) < 0
+    const double share = near_share(faces, face_count, room);
+    if (hierarchy_build_groups(&t->h, &t->plain, share * rays_host(t->rays)->flat) < 0
         || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0
         || solids_open(&t->solids, &t->h, &t->mates) < 0)
         goto fail;
     t->host = *rays_host(t->rays);
+    t->host.ray_offset *= share;
+    t->host.flat *= share;
     t->host.occluded = occluded;
     t->host.candidates = candidates;
     t->host.corners = corners;
@@ -79,11 +137,13 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
         hierarchy_free(&t->plain); /* of the rays' host, only rays are asked from here on */
     free(unit);
     free(black);
+    free(room);
     return 0;
 fail:
     exchange_tree_close(t);
     free(unit);
     free(black);
+    free(room);
     return -1;
 }
 

@@ -97,11 +97,11 @@ static void furnish(uint64_t seed, int most, int tiles, int turned)
             side_of(&blocks[i], side / 2, side % 2, 0, turned);
 }
 
-static void check_rows(void)
+static void check_rows(uint32_t rows)
 {
     static double f[FACES * FACES], area[FACES];
-    factors(scene.faces, TOLERANCE, f, area);
-    for (uint32_t i = 0; i < scene.faces; i++) {
+    factors(rows, TOLERANCE, f, area);
+    for (uint32_t i = 0; i < rows; i++) {
         const double sum = row_sum(f, i);
         ck_assert_msg(fabs(sum - bare[i]) <= 3 * TOLERANCE, "row %u sums to %.5f, not %.5f", i, sum,
                       bare[i]);
@@ -120,14 +120,14 @@ static void round_corners(double size, uint64_t seed)
 START_TEST(test_blocks)
 {
     furnish((uint64_t)_i / 2, 3, _i % 2 ? 3 : 1, _i % 4 / 2);
-    check_rows();
+    check_rows(scene.faces);
 }
 END_TEST
 
 START_TEST(test_cubes)
 {
     furnish((uint64_t)_i, 1, _i % 2 ? 6 : 1, _i % 4 / 2);
-    check_rows();
+    check_rows(scene.faces);
 }
 END_TEST
 
@@ -135,7 +135,18 @@ START_TEST(test_rounded)
 {
     furnish((uint64_t)_i, 1 + _i % 3, 1 + _i % 2 * 2, 1);
     round_corners(0.4 + 0.02 * _i, (uint64_t)_i);
-    check_rows();
+    check_rows(scene.faces);
+}
+END_TEST
+
+/* What stands far outside makes nothing touch that does not. */
+START_TEST(test_far)
+{
+    static const double AT[3] = {2000, 1500, 1000}, U[3] = {0, 1, 0}, V[3] = {0, 0, 1};
+    furnish((uint64_t)_i, 1 + _i % 3, 1 + _i % 2 * 2, 1);
+    const uint32_t rows = scene.faces;
+    rectangle(AT, U, V);
+    check_rows(rows);
 }
 END_TEST
 
@@ -147,6 +158,7 @@ int main(void)
     tcase_add_loop_test(t, test_blocks, 0, under_sanitizers() ? 6 : 2 * ROOMS);
     tcase_add_loop_test(t, test_cubes, 0, under_sanitizers() ? 4 : ROOMS);
     tcase_add_loop_test(t, test_rounded, 0, under_sanitizers() ? 4 : ROOMS);
+    tcase_add_loop_test(t, test_far, 0, under_sanitizers() ? 2 : ROOMS);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
