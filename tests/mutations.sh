@@ -155,6 +155,7 @@ tiles of equal corners | runtime/hierarchy/group_outline.c | s/PLACES_APART . o-
 places parted by one axis | runtime/hierarchy/places.c | s/whole == 3/whole == 1/ | runtime/check_bodies
 near faces by the second order | runtime/engine/exchange_clear.c | s/NEAR_DOUBT = 2/NEAR_DOUBT = 0/ | runtime/check_slots
 what is far makes all near touch | runtime/engine/exchange_tree.c | s/near \* near < all ?/near * near < 0 * all ?/ | runtime/check_assemblies
+oracles' rays as near as shafts | runtime/engine/exchange_tree.c | s/if (!(more > 0))/if (more < 1e9)/ | runtime/check_exchange
 covered rows are not looked at again | runtime/engine/exchange.c | s/(!(covered > 0) ../(!(covered > 0) \&\&/ | runtime/check_assemblies
 a corner beyond is between | runtime/hierarchy/flat_hull.c | s/!(across(hull\[count - 2\], hull\[count - 1\], p) > 0)/!turns(hull[count - 2], hull[count - 1], p)/ | runtime/check_flat_groups
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice

@@ -211,8 +211,8 @@ TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const do
         e = (front & (e > 0)) ? e < least ? e : least : 0;
         double limit = tolerance / CLEAR_REST * (e > SIGHT_FLOOR * least ? e : SIGHT_FLOOR * least);
         double off = scale * scale * rest / (limit * limit);
-        out[j] = e;
         off = trace * t > CLEAR_NEAR && off < NEAR_DOUBT ? NEAR_DOUBT : off;
+        out[j] = e;
         doubt[j] = front ? off : INFINITY;
     }
 }

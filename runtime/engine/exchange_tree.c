@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_tree.h"
+#include "util/array.h"
 #include "visibility/candidates.h"
 #include "visibility/hidden.h"
 
@@ -76,30 +77,25 @@ static void corners(const struct host *host, uint32_t element, struct polygon *p
  * the box of the others a scene may be to count whole. Chosen: a furnished room has its walls. */
 static const double FAR_OFF = 0.05, LARGE = 4;
 
-static int compare_numbers(const void *a, const void *b)
+/* How large a scene is for what is near in it, of how large it is; 0 when out of memory. */
+static double near_share(const struct face *faces, uint32_t count)
 {
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* How large a scene is for what is near in it, of how large it is. `room`: [4 * count]. */
-static double near_share(const struct face *faces, uint32_t count, double *room)
-{
-    double all = 0, most = 0, from_origin = 0;
+    double all = 0, most = 0, from_origin = 0, *at = malloc(4 * (size_t)count * sizeof *at);
+    if (!at)
+        return 0;
     for (int k = 0; k < 3; k++) {
         size_t n = 0;
         for (uint32_t i = 0; i < count; i++)
             for (uint32_t v = 0; v < faces[i].vertices; v++)
-                room[n++] = faces[i].vertex[v][k];
-        if (n == 0)
-            return 1;
-        qsort(room, n, sizeof *room, compare_numbers);
+                at[n++] = faces[i].vertex[v][k];
+        qsort(at, n, sizeof *at, compare_numbers);
         const size_t out = (size_t)(FAR_OFF * (double)n);
-        const double low = room[out], high = room[n - 1 - out], wide = room[n - 1] - room[0];
+        const double low = at[out], high = at[n - 1 - out], wide = at[n - 1] - at[0];
         all += wide * wide;
         most += (high - low) * (high - low);
         from_origin = fmax(from_origin, fmax(fabs(low), fabs(high)));
     }
+    free(at);
     const double near = fmax(LARGE * sqrt(most), from_origin);
     return near * near < all ? near / sqrt(all) : 1;
 }
@@ -107,11 +103,10 @@ static double near_share(const struct face *faces, uint32_t count, double *room)
 int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count,
                        int threads, const char **cause)
 {
-    double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black),
-           *room = malloc(4 * (size_t)face_count * sizeof *room);
+    double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black);
     memset(t, 0, sizeof *t);
     *cause = "out of memory";
-    if (!unit || !black || !room || face_count > UINT32_MAX / 16
+    if (!unit || !black || face_count > UINT32_MAX / 16
         || hierarchy_build(&t->plain, faces, face_count) < 0)
         goto fail;
     for (uint32_t i = 0; i < face_count; i++)
@@ -120,8 +115,9 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
     if (!t->rays || (rays_in_the_way(t->rays) && rays_build(t->rays, cause) < 0))
         goto fail;
     *cause = "out of memory";
-    const double share = near_share(faces, face_count, room);
-    if (hierarchy_build_groups(&t->h, &t->plain, share * rays_host(t->rays)->flat) < 0
+    const double share = near_share(faces, face_count);
+    if (!(share > 0)
+        || hierarchy_build_groups(&t->h, &t->plain, share * rays_host(t->rays)->flat) < 0
         || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0
         || solids_open(&t->solids, &t->h, &t->mates) < 0)
         goto fail;
@@ -137,13 +133,11 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
         hierarchy_free(&t->plain); /* of the rays' host, only rays are asked from here on */
     free(unit);
     free(black);
-    free(room);
     return 0;
 fail:
     exchange_tree_close(t);
     free(unit);
     free(black);
-    free(room);
     return -1;
 }
 

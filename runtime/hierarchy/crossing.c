@@ -103,12 +103,6 @@ static int by_lower_end(const void *a, const void *b)
     return (x->end[k] > y->end[k]) - (x->end[k] < y->end[k]);
 }
 
-static int by_height(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 static void point_at(const struct edge *e, double y, double point[3])
 {
     double t = (y - e->y[0]) / (e->y[1] - e->y[0]);
@@ -195,7 +189,7 @@ static int scan_bands(struct scan *s, struct round_parts *parts, double touch)
     qsort(s->edges, s->edge_count, sizeof *s->edges, by_lower_end);
     if (find_heights(s))
         return -1;
-    qsort(s->heights, s->height_count, sizeof *s->heights, by_height);
+    qsort(s->heights, s->height_count, sizeof *s->heights, compare_numbers);
     double from = s->height_count ? s->heights[0] : 0;
     for (size_t i = 1; i < s->height_count; i++)
         if (s->heights[i] > from + touch) {

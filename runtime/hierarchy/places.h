@@ -6,8 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What parts two places at the least, of what groups' faces may reach out of their planes. Chosen
- */
+/* What parts two places, of what groups' faces may reach out of their planes; chosen */
 enum { PLACES_APART = 8 };
 
 struct corner {

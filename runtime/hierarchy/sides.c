@@ -132,12 +132,6 @@ static void touch_sides(const struct sides *s, const struct edge_axis *x, uint32
     }
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 /* The stretches of an edge, each with what stands around it: mark what they run through, and pair
  * what follows each other. Returns 0, or -1 when out of memory. */
 static int go_along(const struct sides *s, struct pairs *pairs, const struct edge_axis *x)

@@ -1,4 +1,5 @@
-/* array.h - arrays that grow as they are filled, in constant time per item on average.
+/* array.h - arrays that grow as they are filled, in constant time per item on average; and numbers
+ * in order.
  * SPDX-License-Identifier: MIT */
 #ifndef ARRAY_H
 #define ARRAY_H
@@ -31,6 +32,13 @@ static inline int array_reserve(void *array, size_t need, size_t *capacity, size
 static inline int array_reserve_beside(void *array, size_t need, size_t capacity, size_t size)
 {
     return array_reserve(array, need, &capacity, size);
+}
+
+/* For qsort, of doubles, smallest first. */
+static inline int compare_numbers(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
 }
 
 #endif

@@ -19,6 +19,26 @@ static inline double closed_parallel(double a, double b, double c)
                        + y * p * atanl(y / p) - x * atanl(x) - y * atanl(y)));
 }
 
+/* C-13: parallel rectangles at distance h, sides along two axes: the area of either times its
+ * factor to the other (m2). */
+static inline double closed_offset(const double low[2][2], const double high[2][2], double h)
+{
+    double sum = 0;
+    for (int ends = 0; ends < 16; ends++) {
+        double apart[2], sign = 1;
+        for (int k = 0; k < 2; k++) {
+            const int mine = ends >> k & 1, its = ends >> (k + 2) & 1;
+            apart[k] = (mine ? high : low)[0][k] - (its ? high : low)[1][k];
+            sign = mine == its ? sign : -sign;
+        }
+        const double u = apart[0], v = apart[1], p = sqrt(u * u + h * h), q = sqrt(v * v + h * h);
+        sum +=
+            sign
+            * (v * p * atan(v / p) + u * q * atan(u / q) - h * h / 2 * log(u * u + v * v + h * h));
+    }
+    return sum / (double)(2 * CLOSED_PI);
+}
+
 /* C-14: perpendicular rectangles with a common edge l, from width w to height h. */
 static inline double closed_perpendicular(double w, double h, double l)
 {

@@ -255,8 +255,8 @@ START_TEST(test_tolerance)
 }
 END_TEST
 
-/* Half shadow that is integrated has no sample besides, though the oracle takes some by default; the
- * entries are the same. */
+/* Half shadow that is integrated has no sample besides, though the oracle takes some by default;
+ * the entries are the same. */
 START_TEST(test_looks_once)
 {
     enum { CELLS = 3, N = 2 * CELLS * CELLS + 12 };
@@ -293,6 +293,45 @@ START_TEST(test_row_scale)
 }
 END_TEST
 
+/* Oracles' rays between two slanting faces across from each other, beside what is far off: they
+ * start and end nearer to these than Embree's numbers tell, and meet neither. With a plate between
+ * all meet it. */
+START_TEST(test_rays_beside_far)
+{
+    enum { SIDE = 40, PARTS = 30 };
+    static const double UP[2] = {0.31, 0.17}, FAR_AWAY = 20000; /* a slope along x and y */
+    const double steep = sqrt(1 + UP[0] * UP[0] + UP[1] * UP[1]);
+    struct scene s;
+    struct exchange_tree t;
+    const char *cause;
+    uint64_t met = 0;
+    made_open(&s);
+    made_material(&s, 0.5, 0);
+    for (int i = 0; i < PARTS; i++)
+        made_quad(&s, 0, 0, (double)i / PARTS, UP[1] * i / PARTS, 1, 0, UP[0], 0, 1.0 / PARTS,
+                  UP[1] / PARTS);
+    made_quad(&s, 0, 0, 0, 1, 0, 1, UP[1], 1, 0, UP[0]);
+    if (_i)
+        made_quad(&s, 0, -1, -1, 0.5 - UP[0] - UP[1], 3, 0, 3 * UP[0], 0, 3, 3 * UP[1]);
+    made_quad(&s, 0, FAR_AWAY, FAR_AWAY, FAR_AWAY, 0, 1, 0, 0, 0, 1);
+    ck_assert_int_eq(exchange_tree_open(&t, s.faces, s.face_count, 1, &cause), 0);
+    ck_assert_double_lt(t.host.ray_offset, 0.01 * rays_host(t.rays)->ray_offset);
+    ck_assert(rays_in_the_way(t.rays) || rays_build(t.rays, &cause) == 0);
+    const double off = t.host.ray_offset / steep,
+                 n[3] = {-UP[0] * off, -UP[1] * off, off}; /* from the lower face up */
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double x = (i % SIDE + 0.37) / SIDE, y = (i / SIDE + 0.61) / SIDE,
+                     low = UP[0] * x + UP[1] * y, high = 1 + UP[0] * y + UP[1] * (1 - x);
+        const struct segment ray = {{x + n[0], y + n[1], low + n[2]},
+                                    {y - n[0], 1 - x - n[1], high - n[2]}};
+        met += t.host.occluded(&t.host, 1, &ray) & 1;
+    }
+    ck_assert_uint_eq(met, _i ? SIDE * SIDE : 0);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("exchange areas");
@@ -306,6 +345,7 @@ int main(void)
     tcase_add_test(c, test_tolerance);
     tcase_add_test(c, test_looks_once);
     tcase_add_test(c, test_row_scale);
+    tcase_add_loop_test(c, test_rays_beside_far, 0, 2);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

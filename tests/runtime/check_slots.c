@@ -73,15 +73,6 @@ START_TEST(test_pit)
 }
 END_TEST
 
-/* What rectangles across from each other exchange, as a sum over both one's ends and the other's.
- * [Howell's catalog, C-13] */
-static double across_gap(double u, double v, double z)
-{
-    const double p = sqrt(u * u + z * z), q = sqrt(v * v + z * z);
-    return (v * p * atan(v / p) + u * q * atan(u / q) - z * z / 2 * log(u * u + v * v + z * z))
-           / (2 * M_PI);
-}
-
 /* A plate over a floor of tiles, of which it covers parts: as where a box does not quite stand on
  * it. What a tile gets is where they face each other, far from where both have their middles. */
 START_TEST(test_hair)
@@ -108,17 +99,10 @@ START_TEST(test_hair)
     }
     factors(1, 0, f, area);
     for (int i = 0; i < TILES * TILES; i++) {
-        const double low[2] = {i % TILES * side[0], i / TILES * side[1]};
-        double right = 0;
-        for (int ends = 0; ends < 16; ends++) {
-            double apart[2], sign = 1;
-            for (int k = 0; k < 2; k++) {
-                const int mine = ends >> k & 1, its = ends >> (k + 2) & 1;
-                apart[k] = low[k] + its * side[k] - (at[k] + mine * size[k]);
-                sign = mine == its ? sign : -sign;
-            }
-            right += sign * across_gap(apart[0], apart[1], at[2]) / (size[0] * size[1]);
-        }
+        const double x = i % TILES * side[0], y = i / TILES * side[1],
+                     low[2][2] = {{at[0], at[1]}, {x, y}},
+                     high[2][2] = {{at[0] + size[0], at[1] + size[1]}, {x + side[0], y + side[1]}},
+                     right = closed_offset(low, high, at[2]) / (size[0] * size[1]);
         ck_assert_double_eq_tol(f[1 + i], right, 3e-5);
     }
 }

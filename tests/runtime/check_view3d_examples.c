@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "runtime/make_polygons.h"
+#include "study/closed_forms.h"
 #include "suite.h"
 
 static const double TURN = 2 * 3.14159265358979323846;
@@ -84,12 +85,6 @@ static int flat_axis(const struct block *b)
     return axis;
 }
 
-static double parallel_part(double u, double v, double h)
-{
-    const double p = sqrt(u * u + h * h), q = sqrt(v * v + h * h);
-    return v * p * atan(v / p) + u * q * atan(u / q) - h * h / 2 * log(u * u + v * v + h * h);
-}
-
 static double corner_part(double d, double s, double t)
 {
     const double c = s * s + t * t;
@@ -104,18 +99,18 @@ static double exchange(const struct block *a, const struct block *b)
     const int m = flat_axis(a), n = flat_axis(b);
     const double *x[2] = {a->low, a->high}, *y[2] = {b->low, b->high};
     double sum = 0;
+    if (m == n) {
+        const int u = (m + 1) % 3, v = (m + 2) % 3;
+        const double low[2][2] = {{a->low[u], a->low[v]}, {b->low[u], b->low[v]}},
+                     high[2][2] = {{a->high[u], a->high[v]}, {b->high[u], b->high[v]}};
+        return closed_offset(low, high, a->low[m] - b->low[m]);
+    }
     for (int k = 0; k < 16; k++) {
         const int i = k & 1, j = k >> 1 & 1, p = k >> 2 & 1, q = k >> 3;
         const double sign = (i + j + p + q) % 2 ? -1 : 1;
-        if (m == n) {
-            const int u = (m + 1) % 3, v = (m + 2) % 3;
-            sum +=
-                sign * parallel_part(x[i][u] - y[j][u], x[p][v] - y[q][v], a->low[m] - b->low[m]);
-        } else {
-            const int edge = 3 - m - n; /* the edge is where the planes meet */
-            sum += sign
-                   * corner_part(x[i][edge] - y[j][edge], x[p][n] - b->low[n], y[q][m] - a->low[m]);
-        }
+        const int edge = 3 - m - n; /* the edge is where the planes meet */
+        sum +=
+            sign * corner_part(x[i][edge] - y[j][edge], x[p][n] - b->low[n], y[q][m] - a->low[m]);
     }
     return fabs(sum) / TURN;
 }
