@@ -257,8 +257,9 @@ static struct RadMeasure mean_square(const struct measurement *m, const struct s
     double common = both / light;
     common *= common * HALVES * m->error.variance;
     interval(stage, z, common, &below, &above);
-    return (struct RadMeasure){sqrt(fmax(ratio, 0)), sqrt(fmax(ratio - below, 0)),
-                               sqrt(fmax(ratio + above, 0))};
+    /* No square is below 0: an estimate that noise has brought there says no more than 0 would. */
+    ratio = fmax(ratio, 0);
+    return (struct RadMeasure){sqrt(ratio), sqrt(fmax(ratio - below, 0)), sqrt(ratio + above)};
 }
 
 /* ---- all of it */
