@@ -23,7 +23,7 @@
 #include "geometry.h"
 
 /* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
-#define RUNTIME_ABI 12
+#define RUNTIME_ABI 13
 
 #include "catalog.h" /* generated from catalog.dag: answers, levels, struct terms, decisions */
 
@@ -70,11 +70,14 @@ struct element {
     uint32_t parent; /* index in the hierarchy; the root is its own parent */
     /* surface: index of the face it is part of; of the first of a group's faces */
     uint32_t face;
+    /* how far from linear over the element is what all its links bring it together, W/m2, or those
+     * of what it is a part of; 0 before any do, INFINITY: any. Constant during a round */
+    float bend;
     /* 1: a flat group of faces, given as the surface that is the rectangle around them */
-    uint32_t group;
+    uint16_t group;
     /* what an oracle has marked it with, 1 to 7, or what it is a part of; 0: nothing. Constant
      * during a round */
-    uint32_t mark;
+    uint16_t mark;
 };
 
 /* A straight line between two points, ends included. */

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/ambient.h"
+#include "engine/bends.h"
 #include "engine/collocation.h"
 #include "engine/dense.h"
 #include "engine/solve.h"
@@ -394,6 +395,9 @@ int solve_begin(struct solve *s, const struct refiner *refiner, const char **cau
         bracket =
             refiner_reads(refiner, FACT_EMITTER_LOWER) || refiner_reads(refiner, FACT_EMITTER_GAP);
     ranking_start(&s->ranking, refiner, p->rays);
+    s->bends = refiner_reads(refiner, FACT_RECEIVER_BEND) && !rays_in_the_way(p->rays);
+    for (uint32_t i = 0; i < s->hierarchy.count && s->bends; i++)
+        s->hierarchy.elements[i].bend = 0;
     impact = impact || s->ranking.asked
              || (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE));
     if (impact && importance_start(&s->importance, &s->operator, & s->hierarchy, &s->inputs) < 0)
@@ -470,6 +474,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
                                                        : x.held;
     transport_average(op, &x);
     if (oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy) < 0)
+        return -1;
+    if (s->bends && bends_update(&s->inputs, op, s->state.radiosity, &s->hierarchy) < 0)
         return -1;
     if (s->bracket.capacity > 0 && bracket_update(&s->bracket, op, &s->hierarchy, &s->inputs) < 0)
         return -1;

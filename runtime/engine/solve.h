@@ -80,6 +80,7 @@ struct solve {
     struct error_control error;
     struct bracket bracket;
     struct ranking ranking;
+    int bends; /* the oracle reads how light bends over receivers (bends.h) */
     struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
     struct trace *trace; /* whoever is told of discussions, borrowed; NULL: nobody */

@@ -18,7 +18,7 @@
 
 static const uint64_t NAME = 0x31767672616c6f73u; /* of this layout */
 
-enum { SEEN = 3 };
+enum { SEEN = 4 };
 
 /* ---- what it is of */
 
@@ -162,7 +162,7 @@ int solve_state_make(struct solve_state *state, const struct solve *s,
         state->split[i] = h->elements[h->built + 4 * i].parent;
     for (uint32_t i = 0; i < h->count; i++) {
         const struct element *e = &h->elements[i];
-        const double seen[SEEN] = {e->radiosity, e->spread, e->deviation};
+        const double seen[SEEN] = {e->radiosity, e->spread, e->deviation, (double)e->bend};
         state->mark[i] = e->mark;
         memcpy(&state->seen[SEEN * (size_t)i], seen, sizeof seen);
     }
@@ -280,10 +280,11 @@ static void show_elements(struct hierarchy *h, const struct RadStatePart *part)
     const double *seen = part[RAD_STATE_SEEN].data;
     for (uint32_t i = 0; i < h->count; i++, seen += SEEN) {
         struct element *e = &h->elements[i];
-        e->mark = mark[i];
+        e->mark = (uint16_t)mark[i];
         e->radiosity = seen[0];
         e->spread = seen[1];
         e->deviation = seen[2];
+        e->bend = (float)seen[3];
     }
 }
 

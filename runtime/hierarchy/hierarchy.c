@@ -27,6 +27,7 @@ void element_reset(struct element *e)
 {
     e->importance = 1;
     e->tolerance = INFINITY;
+    e->bend = (float)INFINITY;
 }
 
 static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
@@ -239,6 +240,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
         c->importance = e->importance;
         c->tolerance = e->tolerance;
         c->lower = e->lower;
+        c->bend = e->bend;
         c->mark = e->mark;
         c->id = child_id(e->id, i);
     }

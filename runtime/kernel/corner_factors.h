@@ -22,4 +22,19 @@ static inline int corner_factors(const struct element *r, const struct element *
     return q.n > 0;
 }
 
+/* How far f over a surface of so many corners is from its best linear function, by f at its centre
+ * and corners, as above, and its mean. f[0] to f[corners] */
+static inline double corner_bend(const double f[5], int corners, double mean)
+{
+    double sum = 0, twist = 0;
+    for (int i = 1; i <= corners; i++)
+        sum += f[i] / corners;
+    if (corners == 4)
+        twist = 0.25 * fabs(f[1] - f[2] + f[3] - f[4]);
+    double bulge = (2 / 3.0) * fabs(f[0] - sum);
+    double missed = fabs(mean - (2 / 3.0) * f[0] - (1 / 3.0) * sum);
+    twist = twist > bulge ? twist : bulge;
+    return twist > missed ? twist : missed;
+}
+
 #endif

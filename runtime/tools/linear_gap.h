@@ -24,20 +24,13 @@
 /* What is left of F over r beside its best linear function. */
 OUTLINE double linear_gap_bend(const struct element *r, const struct element *s, double mean)
 {
-    double at[5], sum = 0, twist = 0;
-    (void)corner_factors(r, s, at);
-    const double middle = at[0], *f = at + 1;
-    for (int i = 0; i < r->vertices; i++)
-        sum += f[i] / r->vertices;
-    if (r->vertices == 4)
-        twist = 0.25 * fabs(f[0] - f[1] + f[2] - f[3]);
-    double bulge = (2 / 3.0) * fabs(middle - sum);
-    double missed = fabs(mean - (2 / 3.0) * middle - (1 / 3.0) * sum);
-    twist = twist > bulge ? twist : bulge;
-    return twist > missed ? twist : missed;
+    double f[5];
+    (void)corner_factors(r, s, f);
+    return corner_bend(f, r->vertices, mean);
 }
 
-TOOL enum linear_gap_answer tool_linear_gap(struct discussion *d, double absolute, double relative)
+TOOL enum linear_gap_answer tool_linear_gap(struct discussion *d, double absolute, double relative,
+                                            double together)
 {
     const struct element *r = d->receiver, *s = d->emitter;
     double limit = threshold(absolute, relative, d->host->irradiance), v = 1;
@@ -52,7 +45,9 @@ TOOL enum linear_gap_answer tool_linear_gap(struct discussion *d, double absolut
                       : 0; /* F <= 1 */
     if (!(by_r > limit) && !(by_s > limit))
         return LINEAR_GAP_SMALL;
-    return by_r >= by_s ? LINEAR_GAP_RECEIVER : LINEAR_GAP_EMITTER;
+    if (by_r > limit && together > limit && by_r >= by_s)
+        return LINEAR_GAP_RECEIVER;
+    return by_s > limit ? LINEAR_GAP_EMITTER : LINEAR_GAP_BALANCED;
 }
 
 #endif

@@ -173,7 +173,10 @@ static const struct hierarchy *hierarchy_of(const struct host *host)
 
 static int candidates(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces)
 {
-    return candidates_find(hierarchy_of(host), shaft, host->ray_offset, most, faces);
+    const struct rays *rays = (const struct rays *)(const void *)host;
+    return free_space_is_all(&rays->free)
+               ? 0
+               : candidates_find(rays->hierarchy, shaft, host->ray_offset, most, faces);
 }
 
 static void corners(const struct host *host, uint32_t face, struct polygon *polygon)

@@ -20,11 +20,11 @@
 #include "tools/light_visibility.h"
 
 struct parameters {
-    double energy, bend, shadow, noise, hidden, spot, uneven, product, larger, min_share;
+    double energy, bend, balance, shadow, noise, hidden, spot, uneven, product, larger, min_share;
     int near;
 };
 
-enum { RECEIVER, EMITTER, NEITHER };
+enum { RECEIVER, EMITTER, NEITHER, BALANCED };
 enum sight { CLEAR, BLOCKED, LISTED, CROWDED };
 enum { GO_ON = -1 }; /* no decision yet */
 
@@ -187,7 +187,7 @@ static double bend(const struct pair *p)
 }
 
 /* Over which of the two is the light not linear, by more than `limit` (W/m2)? */
-static int curved(struct pair *p, double limit)
+static int curved(struct pair *p, double limit, double balance)
 {
     const struct element *s = p->s;
     double v = p->seen_level > VISIBILITY_ABSENT ? p->seen : 1, size = s->radius * s->radius;
@@ -195,7 +195,9 @@ static int curved(struct pair *p, double limit)
     double by_r = s->radiosity > limit ? v * s->radiosity * bend(p) : 0;
     if (!(by_r > limit) && !(by_s > limit))
         return NEITHER;
-    return by_r >= by_s ? RECEIVER : EMITTER;
+    if (by_r > limit && by_r >= by_s && balance * (double)p->r->bend > limit)
+        return RECEIVER;
+    return by_s > limit ? EMITTER : BALANCED;
 }
 
 /* Split the one of the two, or the other where that may not be; or mark the pair. */
@@ -319,7 +321,15 @@ static enum decision surfaces(const struct parameters *by, struct discussion *d)
     double brought = s->radiosity * factor(&p);
     int decision;
     if (brought > here(&p, by->energy) * mean) {
-        int worse = curved(&p, here(&p, by->bend) * mean);
+        int worse = curved(&p, here(&p, by->bend) * mean, by->balance);
+        if (worse == BALANCED) {
+            enum sight between = look_between(&p);
+            if (between == CLEAR)
+                return link_surfaces(&p, d);
+            if (between == BLOCKED)
+                return hand_over(&p, d, DECISION_STOP);
+            worse = RECEIVER;
+        }
         if (worse != NEITHER) {
             decision = split(&p, by->min_share, worse);
             if (decision != GO_ON)
@@ -405,6 +415,7 @@ static void defaults(void *at)
 {
     *(struct parameters *)at = (struct parameters){.energy = 2e-5,
                                                    .bend = 5e-6,
+                                                   .balance = 16,
                                                    .shadow = 3e-5,
                                                    .noise = 8e-6,
                                                    .hidden = 0.3,
@@ -420,6 +431,7 @@ static void defaults(void *at)
 static const struct oracle_parameter table[] = {
     {"energy", "", "", 2e-5, 0, INFINITY, AT(energy), ROLE_LINK_THRESHOLD, 0},
     {"bend", "", "", 5e-6, 0, INFINITY, AT(bend), ROLE_LINK_THRESHOLD, 0},
+    {"balance", "", "", 16, 1, 1e6, AT(balance), ROLE_NONE, 0},
     {"shadow", "", "", 3e-5, 0, INFINITY, AT(shadow), ROLE_LINK_THRESHOLD, 0},
     {"noise", "", "", 8e-6, 0, INFINITY, AT(noise), ROLE_LINK_THRESHOLD, 0},
     {"hidden", "", "", 0.3, 0, 1, AT(hidden), ROLE_NONE, 0},
@@ -436,7 +448,7 @@ const struct oracle hand_power = {RUNTIME_ABI,
                                   "written by hand",
                                   "",
                                   table,
-                                  11,
+                                  sizeof table / sizeof *table,
                                   sizeof(struct parameters),
                                   defaults,
                                   refine,

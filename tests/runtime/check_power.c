@@ -333,7 +333,7 @@ static int small(enum asked tool, struct discussion d, double absolute, double r
 {
     switch (tool) {
     case LINEAR_GAP:
-        return tool_linear_gap(&d, absolute, relative) == LINEAR_GAP_SMALL;
+        return tool_linear_gap(&d, absolute, relative, INFINITY) == LINEAR_GAP_SMALL;
     case UNEVEN:
         return tool_uneven(&d, absolute, relative) == UNEVEN_BELOW;
     case TRANSFER_NOISE:
@@ -406,7 +406,13 @@ START_TEST(test_linear_gap)
     squares(e, 4, 0.2, 0, 0, 0.5, 1000);
     d = between(e, &host);
     double f = held(LINEAR_GAP, d), above = 0.04 / (M_PI * 0.25); /* F below the lamp, about */
-    ck_assert_int_eq(tool_linear_gap(&d, 0.5 * f, 0), LINEAR_GAP_RECEIVER);
+    ck_assert_int_eq(tool_linear_gap(&d, 0.5 * f, 0, INFINITY), LINEAR_GAP_RECEIVER);
+    /* What others bring makes up for it, or for just not enough of it. */
+    ck_assert_int_eq(tool_linear_gap(&d, 0.5 * f, 0, 0.5 * f), LINEAR_GAP_BALANCED);
+    ck_assert_int_eq(tool_linear_gap(&d, 0.5 * f, 0, 0.51 * f), LINEAR_GAP_RECEIVER);
+    e[1].deviation = 1000;
+    ck_assert_int_eq(tool_linear_gap(&d, 1e-3 * f, 0, 0), LINEAR_GAP_EMITTER);
+    e[1].deviation = 0;
     ck_assert_double_ge(f, 0.5 * 1000 * above);
     ck_assert_double_le(f, 1000 * above);
     limits(LINEAR_GAP, between(e, &host), f);
@@ -421,9 +427,9 @@ START_TEST(test_linear_gap)
     d = between(e, &host);
     ck_assert_double_eq_tol(held(LINEAR_GAP, d), 0.25 / (M_PI * 100) * 40 * 0.125 / 100,
                             0.01 * 0.25 / (M_PI * 100) * 40 * 0.125 / 100);
-    ck_assert_int_eq(tool_linear_gap(&d, 1e-7, 0), LINEAR_GAP_EMITTER);
+    ck_assert_int_eq(tool_linear_gap(&d, 1e-7, 0, INFINITY), LINEAR_GAP_EMITTER);
     e[1].deviation = 0;
-    ck_assert_int_eq(tool_linear_gap(&d, 1e-6, 0), LINEAR_GAP_SMALL);
+    ck_assert_int_eq(tool_linear_gap(&d, 1e-6, 0, INFINITY), LINEAR_GAP_SMALL);
 }
 END_TEST
 
@@ -439,7 +445,7 @@ START_TEST(test_close)
     printf("lamp 1 mm off: %.3g of the %.3g W/m2 that it brings are not linear\n", f, all);
     ck_assert_double_ge(f, 0.9 * all);
     ck_assert_double_le(f, 1.01 * all);
-    ck_assert_int_eq(tool_linear_gap(&d, 0.5 * all, 0), LINEAR_GAP_RECEIVER);
+    ck_assert_int_eq(tool_linear_gap(&d, 0.5 * all, 0, INFINITY), LINEAR_GAP_RECEIVER);
 }
 END_TEST
 
