@@ -421,7 +421,7 @@ static void defaults(void *at)
                                                    .hidden = 0.3,
                                                    .spot = 3e-7,
                                                    .uneven = 8,
-                                                   .product = 2.5e-5,
+                                                   .product = 5e-8,
                                                    .larger = 3,
                                                    .near = 64,
                                                    .min_share = 1e-7};
@@ -437,7 +437,7 @@ static const struct oracle_parameter table[] = {
     {"hidden", "", "", 0.3, 0, 1, AT(hidden), ROLE_NONE, 0},
     {"spot", "", "", 3e-7, 0, INFINITY, AT(spot), ROLE_LINK_THRESHOLD, 0},
     {"uneven", "", "", 8, 1, INFINITY, AT(uneven), ROLE_NONE, 0},
-    {"product", "", "", 2.5e-5, 0, INFINITY, AT(product), ROLE_LINK_THRESHOLD, 0},
+    {"product", "", "", 5e-8, 0, INFINITY, AT(product), ROLE_LINK_THRESHOLD, 0},
     {"larger", "", "", 3, 0, INFINITY, AT(larger), ROLE_NONE, 0},
     {"near", "", "", 64, 0, 64, 1, offsetof(struct parameters, near), ROLE_NONE, 0},
     {"min_share", "", "", 1e-7, 0, 1, AT(min_share), ROLE_SMALLEST_PART, 0},
