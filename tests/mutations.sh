@@ -11,6 +11,7 @@ trap 'rm -rf "$work"' EXIT
 # name | file | what sed does | suites
 table() {
     sed '/^$/d' <<'END'
+products of near groups | examples/oracles/power.dag | s/\(product *: ratio = \)5e-8/\12.5e-5/ | runtime/check_power
 bends are never known | runtime/engine/solve.c | s/\&\& !rays_in_the_way(p->rays);/\&\& 0;/ | runtime/check_bends
 bends are always balanced | runtime/tools/linear_gap.h | s/together > limit \&\&/0 \&\&/ | runtime/check_bends runtime/check_power
 bends of the last link | runtime/engine/bends.c | s/at->point.i..k. += factor/at->point[i][k] = factor/ | runtime/check_bends
