@@ -95,11 +95,10 @@ int bends_update(struct oracle_inputs *in, struct light_operator *op, const doub
     }
     for (uint32_t i = 0; i < h->count; i++) {
         struct element *e = &h->elements[i];
-        const double seen = (double)e->bend, unknown = in->known * e->radiosity;
-        const int grew = bend[i] > (1 + HYSTERESIS) * seen + unknown;
-        if (grew || bend[i] < (1 - HYSTERESIS) * seen)
-            e->bend = (float)bend[i];
-        in->changed[i] |= (unsigned char)grew;
+        double seen = (double)e->bend;
+        in->changed[i] |= (unsigned char)oracle_inputs_follow(&seen, bend[i], HYSTERESIS,
+                                                              in->known * e->radiosity);
+        e->bend = (float)seen;
     }
     free(bend);
     return 0;

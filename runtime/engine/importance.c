@@ -135,11 +135,8 @@ static void mark_grown(const struct importance *y, struct hierarchy *h, struct o
 {
     for (uint32_t i = 0; i < h->count; i++) {
         double share = fmax(y->largest > 0 ? y->value[i] / y->largest : 1, IMPORTANCE_LEAST);
-        if (share > (1 + HYSTERESIS) * h->elements[i].importance)
-            in->changed[i] = 1;
-        else if (share >= (1 - HYSTERESIS) * h->elements[i].importance)
-            continue;
-        h->elements[i].importance = share;
+        in->changed[i] |=
+            (unsigned char)oracle_inputs_follow(&h->elements[i].importance, share, HYSTERESIS, 0);
     }
 }
 

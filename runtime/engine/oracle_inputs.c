@@ -99,16 +99,6 @@ static double measure_deviation(const struct spreads *in, const struct light_ope
     return widest;
 }
 
-/* What the oracles see of a value that is `now`: it follows when they differ by more than the share
- * `within`. Returns 1 when it grew by more than that and `unknown`. */
-static int follow(double *seen, double now, double within, double unknown)
-{
-    int grew = now > (1 + within) * *seen + unknown;
-    if (grew || now < (1 - within) * *seen)
-        *seen = now;
-    return grew;
-}
-
 struct showing {
     struct oracle_inputs *in;
     struct spreads below;
@@ -128,9 +118,9 @@ static void show(const void *showing, uint32_t i)
     double unknown = s->in->known * brightest,
            spread = measure_spread(&s->below, s->op, s->radiosity, i),
            deviation = measure_deviation(&s->below, s->op, s->radiosity, i);
-    int grew = follow(&e->radiosity, brightest, HYSTERESIS, 0);
-    grew |= follow(&e->spread, spread, HYSTERESIS, unknown);
-    grew |= follow(&e->deviation, deviation, DEVIATION_HYSTERESIS, unknown);
+    int grew = oracle_inputs_follow(&e->radiosity, brightest, HYSTERESIS, 0);
+    grew |= oracle_inputs_follow(&e->spread, spread, HYSTERESIS, unknown);
+    grew |= oracle_inputs_follow(&e->deviation, deviation, DEVIATION_HYSTERESIS, unknown);
     s->in->changed[i] = (unsigned char)grew;
 }
 

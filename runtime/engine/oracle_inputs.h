@@ -17,6 +17,16 @@ struct oracle_inputs {
 int oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
                          const double *radiosity, struct hierarchy *h);
 
+/* What the oracles see of a value that is `now`: it follows when they differ by more than the share
+ * `within`. Returns 1 when it grew by more than that and `unknown`. */
+static inline int oracle_inputs_follow(double *seen, double now, double within, double unknown)
+{
+    int grew = now > (1 + within) * *seen + unknown;
+    if (grew || now < (1 - within) * *seen)
+        *seen = now;
+    return grew;
+}
+
 /* Before the first solve the oracles see what the light is likely to be: E + rho H with the
  * scene's mean irradiance. */
 void oracle_inputs_guess(const struct problem *p, struct hierarchy *h);

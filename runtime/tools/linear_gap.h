@@ -1,7 +1,9 @@
 /* linear_gap.h - question: by how much may the irradiance that the link brings miss the best linear
  * function over the receiver (W/m2), by F over the receiver, or by B over the emitter? If by more
  * than the larger of `absolute` (W/m2) and `relative` times the scene's mean irradiance: who is to
- * be split? Approximate: F is sampled.
+ * be split? Approximate: F is sampled. What all links of the receiver miss `together` (W/m2;
+ * engine/bends.c measures it) tells whether others make up for this one: where it is not above that
+ * either, nobody is split for F (balanced).
  *
  * Receiver: F at its corners and centre holds a linear part, which linear elements take up, and
  * what is left: the twist (F0 - F1 + F2 - F3)/4 of a quad and the bulge, F at the centre less the

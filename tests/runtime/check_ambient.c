@@ -9,9 +9,8 @@
 
 static struct solve_options without_links(int threads)
 {
-    struct solve_options o = quick(threads);
+    struct solve_options o = quick_linear(threads);
     o.no_links = 1;
-    o.linear = 1;
     return o;
 }
 

@@ -7,13 +7,6 @@
 #include "make_solve.h"
 #include "suite.h"
 
-static struct solve_options linear(int threads)
-{
-    struct solve_options o = quick(threads);
-    o.linear = 1;
-    return o;
-}
-
 /* Pairs of faces that see each other; of convex scenes, those that do not lie in one plane. */
 static size_t pairs_of(const struct hierarchy *h)
 {
@@ -38,7 +31,7 @@ START_TEST(test_furnace)
     struct scene scene;
     struct solve s;
     shapes[_i / 2](&scene, rho);
-    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, linear(1));
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick_linear(1));
     printf("furnace %d, rho %.1f: %zu links of %zu pairs\n", _i / 2, rho, s.refinement.link_count,
            pairs_of(&s.hierarchy));
     ck_assert_uint_eq(s.hierarchy.count, s.hierarchy.built);
@@ -59,7 +52,7 @@ START_TEST(test_uneven)
     made_open(&scene);
     uint32_t bright = made_material(&scene, 0.5, 1), dark = made_material(&scene, 0.5, 0);
     made_room(&scene, (const uint32_t[6]){bright, dark, bright, bright, bright, bright}, 1, 1, 1);
-    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, linear(1));
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick_linear(1));
     ck_assert_uint_gt(s.hierarchy.count, s.hierarchy.built);
     uint32_t still = 0;
     for (uint32_t i = 0; i < s.hierarchy.face_count; i++)
@@ -79,7 +72,7 @@ START_TEST(test_found)
     uint32_t lamp = made_material(&scene, 0, 1), grey = made_material(&scene, 0.5, 0);
     made_quad(&scene, grey, 0, 0, 0, 4, 0, 0, 0, 4, 0);
     made_quad(&scene, lamp, 0, 0, 1, 0, 1, 0, 1, 0, 0);
-    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, linear(1));
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick_linear(1));
     printf("lamp over a floor: %zu links\n", s.refinement.link_count);
     ck_assert_int_eq(hierarchy_surface(&s.hierarchy, 0)->children, 4);
     solve_close(&s);
@@ -87,8 +80,8 @@ START_TEST(test_found)
 }
 END_TEST
 
-/* What bends_update says of a face against the same from F by the contour integral: a unit square
- * under one of a lamp's size at its edge, the other half of the sky dark. */
+/* A square under a lamp in two halves: what both bring together, against the sum of what each does
+ * at the square's centre and corners. */
 START_TEST(test_sum)
 {
     struct scene scene;
@@ -99,10 +92,9 @@ START_TEST(test_sum)
     made_quad(&scene, lamp, 0, 0, 1, 0, 1, 0, 0.5, 0, 0);
     made_quad(&scene, lamp, 0.5, 0, 1, 0, 1, 0, 0.5, 0, 0);
     char *const coarse[] = {"bend=1", "shadow=1", NULL};
-    solve_with(&s, &scene, "power", RELEASE_FLAT, coarse, linear(1));
+    solve_with(&s, &scene, "power", RELEASE_FLAT, coarse, quick_linear(1));
     const struct element *floor = hierarchy_surface(&s.hierarchy, 0);
     ck_assert_uint_eq(s.hierarchy.count, s.hierarchy.built);
-    /* F at the centre and at a corner's point of the square above, the bulge between. */
     const struct element *above[2] = {hierarchy_surface(&s.hierarchy, 1),
                                       hierarchy_surface(&s.hierarchy, 2)};
     double whole[5] = {0}, mean = 0;

@@ -16,10 +16,8 @@ enum { FLOOR = 0 };
 static void furnished_linear(struct solve *s, struct scene *scene, int threads)
 {
     static char *coarse[] = {"relative=0.3", NULL};
-    struct solve_options o = quick(threads);
-    o.linear = 1;
     furnished(scene, 1);
-    solve_with(s, scene, "bf", RELEASE_FLAT, coarse, o);
+    solve_with(s, scene, "bf", RELEASE_FLAT, coarse, quick_linear(threads));
 }
 
 static int is_leaf_of(const struct solve *s, uint32_t i, uint32_t face)

@@ -301,12 +301,10 @@ enum { GLOWS = sizeof glows / sizeof *glows };
 /* A furnished room, solved coarsely, with slopes. */
 static void furnished_linear(struct solve *s, struct scene *scene, double glow)
 {
-    struct solve_options o = quick(1);
-    o.linear = 1;
     furnished(scene, 1);
     for (int k = 0; k < 3; k++)
         scene->materials[0].exitance[k] = glow;
-    solve_with(s, scene, "bf", RELEASE_FLAT, coarse, o);
+    solve_with(s, scene, "bf", RELEASE_FLAT, coarse, quick_linear(1));
 }
 
 static void furnished_solve(struct solve *s, struct scene *scene, int threads, double size)

@@ -659,13 +659,8 @@ static void bulb(struct scene *s, uint32_t material)
             on_bulb(p[1], i + 1, k);
             on_bulb(p[2], i + 1, k + 1);
             on_bulb(p[3], i, k + 1);
-            if (k == 0)
-                made_face(s, material, 3,
-                          (const double[3][3]){{p[0][0], p[0][1], p[0][2]},
-                                               {p[2][0], p[2][1], p[2][2]},
-                                               {p[3][0], p[3][1], p[3][2]}});
-            else
-                made_face(s, material, k == HIGH - 1 ? 3 : 4, (const double(*)[3])p);
+            const int below = k == 0, pole = below || k == HIGH - 1; /* two corners in one */
+            made_face(s, material, pole ? 3 : 4, (const double(*)[3])(p + below));
         }
 }
 

@@ -16,6 +16,13 @@ static inline struct solve_options quick(int threads)
     return o;
 }
 
+static inline struct solve_options quick_linear(int threads)
+{
+    struct solve_options o = quick(threads);
+    o.linear = 1;
+    return o;
+}
+
 /* Solve with an oracle; settings end with NULL. */
 static inline void solve_with(struct solve *s, const struct scene *scene, const char *oracle,
                               enum release release, char *const *settings,
