@@ -295,6 +295,9 @@ struct RadOracleReport {
     const struct oracle_parameter *parameters; /* [parameter_count], the oracle's own */
     int parameter_count;
     int reads_importance, reads_tolerance; /* facts that a solver must provide */
+    /* [read_count], enum catalog_fact, ascending: all that its arguments read; the oracle's own */
+    const int *reads;
+    int read_count;
 };
 RAD_API void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report);
 /* The graph of an interpreted oracle as JSON, schema dagc/1 (dagc --emit=json, dagc(1)): nodes,

@@ -298,6 +298,8 @@ void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
                                || refiner_reads(r, FACT_RECEIVER_IMPACT)
                                || refiner_reads(r, FACT_SCENE_RANK);
     report->reads_tolerance = refiner_reads(r, FACT_RECEIVER_TOLERANCE);
+    report->reads = r->reads;
+    report->read_count = r->read_count;
 }
 
 int radSetOracleParameter(RadOracle oracle, const char *name, double value)

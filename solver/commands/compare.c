@@ -1,11 +1,11 @@
 /* compare.c - `radiosity compare`: the releases of an oracle on one scene, the hand-written one
  * where there is one.
  *
- * First one solve by an oracle made of all of them: each discusses every pair on a copy, blocks of
- * them at once where it runs in waves, and decisions and what links would store are compared bit by
- * bit. It ends with the first round in which they differ: what follows would tell of other links.
- * Else each release solves alone, in turn, several times, and the medians of the refinement's
- * seconds are compared.
+ * First one solve by an oracle made of all of them, which reads what they read: each discusses
+ * every pair on a copy, blocks of them at once where it runs in waves, and decisions and what links
+ * would store are compared bit by bit. It ends with the first round in which they differ: what
+ * follows would tell of other links. Else each release solves alone, in turn, several times, and
+ * the medians of the refinement's seconds are compared.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -367,7 +367,7 @@ static RadOracle open_panel(RadDevice device, const struct options *o, struct or
             panel.interpreted = k;
     }
     struct RadOracleReport report;
-    radGetOracleReport(panel.releases[0], &report);
+    radGetOracleReport(panel.releases[panel.interpreted], &report);
     (void)radGetOracleWay(panel.releases[panel.interpreted], 0, NULL, 0); /* from now on */
     *all = (struct oracle){.abi = RUNTIME_ABI,
                            .name = o->oracle,
@@ -376,6 +376,8 @@ static RadOracle open_panel(RadDevice device, const struct options *o, struct or
                            .parameters_size = sizeof(struct panel *),
                            .defaults = panel_defaults,
                            .refine = ask_all,
+                           .reads = report.reads,
+                           .read_count = report.read_count,
                            .wave = ask_all_in_blocks};
     RadOracle oracle = radNewOracleCompiled(device, all, "all");
     if (!oracle)

@@ -455,7 +455,7 @@ const struct command_row command_rows[COMMANDS] = {
          "meet the same radiosities: how far off, in all and per polygon, and by which\n"
          "cause: pairs given up, bright spots, form factors, visibility, row sums. By\n"
          "constants: with slopes a link is nine numbers, and causes mix in each of them.\n",
-         "radiosity study causes room.obj cornell.obj --set relative=0.1"},
+         "radiosity study causes room.obj cornell.obj --set bend=2e-5"},
     [COMMAND_GREEDY] =
         {"study greedy", "", "an oracle's links against the fewest there need be",
          "Solve scenes without shadows whose light is known: an empty white cube, a lit\n"
@@ -594,7 +594,7 @@ const struct option_row option_rows[] = {
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
     {"iterations", "N", MATRICES | FORM_FACTORS, "100000",
-     "sweeps at the most; solve ends with 3 if they do not do", "a whole number from 1",
+     "sweeps of each pass at the most; solve ends with 3 if they do not do", "a whole number from 1",
      WHOLE(iterations, 1, INT_MAX), .rare = 1},
     {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell, lu or petsc",
      WORD(read_solver, solver_words), .rare = 1},

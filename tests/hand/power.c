@@ -443,6 +443,8 @@ static const struct oracle_parameter table[] = {
     {"min_share", "", "", 1e-7, 0, 1, AT(min_share), ROLE_SMALLEST_PART, 0},
 };
 
+static const int reads[] = {FACT_RECEIVER_BEND};
+
 const struct oracle hand_power = {RUNTIME_ABI,
                                   "power",
                                   "written by hand",
@@ -452,6 +454,6 @@ const struct oracle hand_power = {RUNTIME_ABI,
                                   sizeof(struct parameters),
                                   defaults,
                                   refine,
-                                  NULL,
-                                  0,
+                                  reads,
+                                  sizeof reads / sizeof *reads,
                                   NULL};

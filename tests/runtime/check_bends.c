@@ -115,6 +115,60 @@ START_TEST(test_sum)
 }
 END_TEST
 
+/* Under a low ceiling of strips, bright and dark in turn, what all bring together is the same at
+ * the floor's centre and corners, and is not even. Held against an oracle that splits for every
+ * link. */
+START_TEST(test_strips)
+{
+    const int strips = _i ? 8 : 2;
+    struct scene scene;
+    struct solve s, other;
+    made_open(&scene);
+    uint32_t even = made_material(&scene, 0.5, 0.5), bright = made_material(&scene, 0.5, 1),
+             dark = made_material(&scene, 0.5, 0);
+    made_quad(&scene, even, 0, 0, 0, 10, 0, 0, 0, 10, 0);
+    made_quad(&scene, even, 0, 0, 0, 0, 0, 0.1, 10, 0, 0);
+    made_quad(&scene, even, 0, 10, 0, 10, 0, 0, 0, 0, 0.1);
+    made_quad(&scene, even, 0, 0, 0, 0, 10, 0, 0, 0, 0.1);
+    made_quad(&scene, even, 10, 0, 0, 0, 0, 0.1, 0, 10, 0);
+    for (int i = 0; i < strips; i++) {
+        const double from = 10.0 * i / strips, to = 10.0 * (i + 1) / strips;
+        made_quad(&scene, i % 2 ? bright : dark, from, 0, 0.1, 0, 10, 0, to - from, 0, 0);
+    }
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick_linear(1));
+    solve_with(&other, &scene, "bf_guarded", RELEASE_FLAT, NULL, quick_linear(1));
+    double off = 0, all = 0;
+    for (uint32_t i = 0; i < s.hierarchy.face_count; i++) {
+        const double area = hierarchy_surface(&s.hierarchy, i)->area;
+        off += area * fabs(face_radiosity(&s, i) - face_radiosity(&other, i));
+        all += area * face_radiosity(&other, i);
+    }
+    printf("%d strips: %zu links, %.2f %% from %zu links of bf_guarded\n", strips,
+           s.refinement.link_count, 100 * off / all, other.refinement.link_count);
+    ck_assert_double_lt(off, 0.02 * all);
+    solve_close(&s);
+    solve_close(&other);
+    made_close(&scene);
+}
+END_TEST
+
+/* What is written by hand asks for the same. */
+START_TEST(test_hand)
+{
+    struct scene scene;
+    struct solve s, hand;
+    made_open(&scene);
+    uint32_t bright = made_material(&scene, 0.5, 1), dark = made_material(&scene, 0.5, 0);
+    made_room(&scene, (const uint32_t[6]){bright, dark, bright, bright, bright, bright}, 1, 1, 1);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick_linear(1));
+    solve_with(&hand, &scene, "power", RELEASE_HAND, NULL, quick_linear(1));
+    same_links(&s, &hand);
+    solve_close(&s);
+    solve_close(&hand);
+    made_close(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("bends");
@@ -123,6 +177,8 @@ int main(void)
     tcase_add_test(c, test_uneven);
     tcase_add_test(c, test_found);
     tcase_add_test(c, test_sum);
+    tcase_add_loop_test(c, test_strips, 0, 2);
+    tcase_add_test(c, test_hand);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -30,4 +30,11 @@ compare 's/decides\[\] = {DECISION_SUBDIVIDE_RECEIVER, DECISION_SUBDIVIDE_EMITTE
 check "waves that differ" sh -c "[ $status = 1 ] && grep -q '^  flat subdivide_receiver$' out && grep -q '^  wave subdivide_both$' out"
 compare 's/nothing/to change/' 2
 check "no difference" sh -c "[ $status = 0 ] && grep -q '^identical: ' out && grep -q '^  flat .* s  ' out && grep -q '^  wave .* s  ' out"
+# What the oracle reads, all releases read: a white cube, where links whose bends make up for each other are not split
+"$radiosity" compare "$scenes/furnace.obj" --oracle power --repeats 1 >out 2>err
+check "power, which reads bends: exit status $?" grep -q '^identical: .* 30 links$' out
+for release in flat dag hand wave; do
+    "$radiosity" solve "$scenes/furnace.obj" --oracle power --release $release --no-correct -q --json one.json
+    check "power by $release" [ "$(sed -n 's/^  "links": \([0-9]*\),/\1/p' one.json)" = 30 ]
+done
 finish compare
