@@ -142,11 +142,16 @@ static int wrong(const char *what, const char *which)
     return 2;
 }
 
-static int wrong_name(const char *what, const char *name, const char *nearest)
+static const char in_help[] = "'dagc --help' tells what there is";
+
+/* known: where the names stand, for one that is like none of them. */
+static int wrong_name(const char *what, const char *name, const char *nearest, const char *known)
 {
     fprintf(stderr, "dagc: error: %s '%s'\n", what, name);
     if (nearest != NULL)
         fprintf(stderr, "    note: did you mean '%s'?\n", nearest);
+    else
+        fprintf(stderr, "    note: %s\n", known);
     return 2;
 }
 
@@ -165,7 +170,7 @@ static int set_emit(struct job *job, const char *name)
         }
         dag_suggest(&suggestion, emits[i].name);
     }
-    return wrong_name("--emit does not know", name, suggestion.best);
+    return wrong_name("--emit does not know", name, suggestion.best, in_help);
 }
 
 static int set_dump(struct job *job, const char *name)
@@ -178,7 +183,7 @@ static int set_dump(struct job *job, const char *name)
         }
         dag_suggest(&suggestion, passes[i].name);
     }
-    return wrong_name("--dump knows no pass", name, suggestion.best);
+    return wrong_name("--dump knows no pass", name, suggestion.best, in_help);
 }
 
 static int set_warning(struct job *job, const char *what)
@@ -189,7 +194,9 @@ static int set_warning(struct job *job, const char *what)
         return 0;
     }
     const char *unknown = dag_warnings_switch(&job->warnings, what, &nearest);
-    return unknown == NULL ? -1 : wrong_name("no warning is called", unknown, nearest);
+    return unknown == NULL
+               ? -1
+               : wrong_name("no warning is called", unknown, nearest, "'dagc -W' lists them");
 }
 
 /* -1: go on; else the status to exit with. */
@@ -295,7 +302,7 @@ static int unknown_option(const char *argument)
         if (strlen(options[i].spelling) > 2)
             dag_suggest(&suggestion, options[i].spelling);
     if (suggestion.best != NULL)
-        return wrong_name("unknown option", argument, suggestion.best);
+        return wrong_name("unknown option", argument, suggestion.best, in_help);
     return wrong("unknown option", argument);
 }
 

@@ -384,6 +384,14 @@ static void sum_counts(struct solve *s)
     s->report.rounds = (uint64_t)rounds;
 }
 
+/* One packet of many is timed, and counts for all of them: where a thread was put aside in one,
+ * that would be more than the whole. */
+static void note_ray_seconds(struct solve *s)
+{
+    s->report.seconds.in_rays = fmin(
+        rays_count(s->problem.rays).seconds / s->problem.options.threads, s->report.seconds.refine);
+}
+
 static const char refining[] =
     "out of memory while refining; a coarser oracle parameter needs less";
 
@@ -445,7 +453,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     if (!p->options.unit)
         solve_measure_contact(s, 0, 0);
     s->report.seconds.refine += seconds() - start;
-    s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
+    note_ray_seconds(s);
     return 0;
 }
 
@@ -612,7 +620,7 @@ int solve_step(struct solve *s, const char **cause)
     s->report.converged = (s->report.converged || rough) && done;
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
-    s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
+    note_ray_seconds(s);
     if (done && p->options.linear && solve_linear(s, cause) < 0)
         return -1;
     if (p->options.no_links && !p->options.unit)

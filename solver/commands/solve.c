@@ -210,6 +210,10 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
                        "%.2g %% more is absorbed than emitted, which is error: use finer links "
                        "(smaller thresholds, --set)",
                        100 * (s.report.absorbed / s.report.emitted - 1));
+    if (!(s.report.emitted > 0) && !o->quiet)
+        report_warning(o->scene, 0,
+                       "no face emits, so all is dark; give a face a material that does: Ke above "
+                       "0 in an .mtl file");
     if (!o->quiet) {
         measured_warn(&measured, o->scene);
         power_promise_warn(&promise, o->scene);

@@ -301,6 +301,7 @@ static int read_size(struct options *o, const struct option_row *row, const char
         return -1;
     o->width = (int)w;
     o->height = (int)h;
+    o->size_given = 1;
     return 0;
 }
 
@@ -491,7 +492,7 @@ const struct command_row command_rows[COMMANDS] = {
          "into), 12b (its far side), 12/0/3 (of its quarter 0 the quarter 3), root/1 (a\n"
          "cluster). By points: the pair in which what carries light from there to here was\n"
          "decided. --step reads commands from standard input: help lists them.\n",
-         "radiosity explain room.obj --pair 0/2,3 --replace 'pair__much=below'"},
+         "radiosity explain room.obj --pair 0/0,4/0 --replace 'pair__much=below'"},
 };
 
 /* ---- the options */

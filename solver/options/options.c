@@ -53,7 +53,7 @@ static int print_help(void)
            "Faces have one side unless the material's name ends in _2s.\n"
            "COMMAND --help tells its options, --help=all all of them; --version the version.\n"
            "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
-           "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
+           "fault; 2 wrong usage; 3 short of what was asked; 130, 143 stopped by a signal.\n");
     return 0;
 }
 
@@ -110,7 +110,7 @@ static int print_command_help(enum command command, int all)
         printf(row->preset ? " (%s)\n" : "\n", row->preset);
     }
     if (rare && !all)
-        printf("  %-*s  %d options more\n", width, "--help=all", rare);
+        printf("  %-*s  %d option%s more\n", width, "--help=all", rare, rare > 1 ? "s" : "");
     printf("%s    %s\n", width ? "\n" : "", c->example);
     return 0;
 }
@@ -463,6 +463,9 @@ static int check_together(struct options *o)
     if (o->mesh && !o->image && !o->image_error)
         return wrong(c->name, "--mesh is for a picture: add --image FILE.png or --image-error "
                               "FILE.png");
+    if (o->size_given && !o->image && !o->image_error && !o->view_given)
+        return wrong(c->name, "--size is for a picture: add --image FILE.png or --image-error "
+                              "FILE.png");
     if (o->gather >= 0 && !o->image)
         return wrong(c->name, "--gather is for a picture: add --image FILE.png");
     if (o->no_errors && (o->errors || o->image_error))
@@ -487,6 +490,7 @@ int options_parse(struct options *o, int count, char **arguments)
     for (int i = 0; i < option_row_count && status < 0; i++)
         if (option_rows[i].commands >> o->command & 1 && option_rows[i].preset)
             status = read_value(o, &option_rows[i], option_rows[i].preset);
+    o->size_given = 0;
     struct option longs[OPTIONS_MAX];
     char shorts[OPTIONS_MAX];
     options_of(o->command, longs, shorts);

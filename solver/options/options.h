@@ -104,6 +104,7 @@ struct options {
     const char *checkpoint, *restart; /* solve: to be written after passes; to go on from */
     struct copies copies;             /* viewfactors: --mirror, --repeat */
     int width, height, mesh;          /* of the picture */
+    int size_given;
     int gather;                       /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;
     int view_given;

@@ -108,6 +108,7 @@ says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
 says 2 "a command comes first, not --image" --image x solve "$scene"
 says 2 "--mesh is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --mesh
+says 2 "--size is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --size 100x100
 says 2 "--gather is for a picture: add --image FILE.png" solve "$scene" --gather 4
 says 2 "--no-errors and --image-error contradict each other" solve "$scene" --no-errors --image-error x.png
 says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
@@ -283,9 +284,9 @@ mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
 
 # ---- examples of help and man page that need no other file run as they stand
 mkdir examples && (
-    cd examples && cp "$scenes"/cornell.obj room.obj && cp "$scenes"/cornell.mtl . || exit
-    { "$radiosity" solve --help; cat "$top/solver/man/radiosity.1"; } |
-        sed -n 's/^ *\(radiosity solve room.obj .*\)/\1/p' | grep -v mine | sort -u >all
+    cd examples && cp "$scenes"/cornell.obj room.obj && cp "$scenes"/cornell.* . || exit
+    { "$radiosity" solve --help; "$radiosity" study causes --help; cat "$top/solver/man/radiosity.1"; } |
+        sed -En 's/^ *(radiosity (solve|study causes) room.obj .*)/\1/p' | grep -v mine | sort -u >all
 )
 count=$((count + 1))
 [ "$(wc -l <examples/all)" -ge 6 ] || failed "fewer examples than there were"
@@ -302,6 +303,12 @@ count=$((count + 1))
     "$radiosity" solve "$scene" -q --image i.png --image-error e.png --size 60x40 >>out 2>>err && [ -s i.png ] && [ -s e.png ] &&
     [ ! -s err ] && [ ! -s out ] || failed "--image-error"
 rm -f out err i.png e.png
+
+# ---- a scene without a lamp is dark, and that is said
+sed 's/^Ke .*/Ke 0 0 0/' "${scene%.obj}.mtl" >furnace.mtl && cp "$scene" dark.obj
+count=$((count + 1))
+"$radiosity" solve dark.obj >out 2>err && [ "$(wc -l <err)" = 1 ] && grep -q '^dark.obj: warning: no face emits, so all is dark; give ' err || failed "no lamp"
+rm -f out err dark.obj furnace.mtl
 
 # ---- a chart of a single threshold draws without a word
 if ! command -v gnuplot >/dev/null; then
