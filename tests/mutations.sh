@@ -15,6 +15,8 @@ products of near groups | examples/oracles/power.dag | s/\(product *: ratio = \)
 bends are never known | runtime/engine/solve.c | s/\&\& !rays_in_the_way(p->rays);/\&\& 0;/ | runtime/check_bends
 bends are always balanced | runtime/tools/linear_gap.h | s/together > limit \&\&/0 \&\&/ | runtime/check_bends runtime/check_power
 bends of the last link | runtime/engine/bends.c | s/at->point.i..k. += factor/at->point[i][k] = factor/ | runtime/check_bends
+bends at centre and corners alone | runtime/engine/bends.c | s/return sqrt(square . INSIDE);/return 0 * square;/ | runtime/check_bends
+bends that hand does not read | tests/hand/power.c | s/{FACT_RECEIVER_BEND};/{FACT_RECEIVER_AREA};/ | runtime/check_bends
 bends seen by nobody | runtime/engine/bends.c | s/in->changed.i. .= (unsigned char)/in->changed[i] += 0 * (unsigned char)/ | runtime/check_bends
 shafts of empty rooms | runtime/visibility/rays.c | s/return free_space_is_all(&rays->free)$/return 0/ | runtime/check_bends
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
