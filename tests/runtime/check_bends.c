@@ -120,9 +120,11 @@ END_TEST
  * link. */
 START_TEST(test_strips)
 {
-    const int strips = _i ? 8 : 2;
+    enum { STRIPS = 8 };
     struct scene scene;
     struct solve s, other;
+    struct solve_options options = quick_linear(1);
+    options.tolerance = 0; /* by what the elements leave; last digits of sums are not even */
     made_open(&scene);
     uint32_t even = made_material(&scene, 0.5, 0.5), bright = made_material(&scene, 0.5, 1),
              dark = made_material(&scene, 0.5, 0);
@@ -131,19 +133,19 @@ START_TEST(test_strips)
     made_quad(&scene, even, 0, 10, 0, 10, 0, 0, 0, 0, 0.1);
     made_quad(&scene, even, 0, 0, 0, 0, 10, 0, 0, 0, 0.1);
     made_quad(&scene, even, 10, 0, 0, 0, 0, 0.1, 0, 10, 0);
-    for (int i = 0; i < strips; i++) {
-        const double from = 10.0 * i / strips, to = 10.0 * (i + 1) / strips;
+    for (int i = 0; i < STRIPS; i++) {
+        const double from = 10.0 * i / STRIPS, to = 10.0 * (i + 1) / STRIPS;
         made_quad(&scene, i % 2 ? bright : dark, from, 0, 0.1, 0, 10, 0, to - from, 0, 0);
     }
-    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick_linear(1));
-    solve_with(&other, &scene, "bf_guarded", RELEASE_FLAT, NULL, quick_linear(1));
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, options);
+    solve_with(&other, &scene, "bf_guarded", RELEASE_FLAT, NULL, options);
     double off = 0, all = 0;
     for (uint32_t i = 0; i < s.hierarchy.face_count; i++) {
         const double area = hierarchy_surface(&s.hierarchy, i)->area;
         off += area * fabs(face_radiosity(&s, i) - face_radiosity(&other, i));
         all += area * face_radiosity(&other, i);
     }
-    printf("%d strips: %zu links, %.2f %% from %zu links of bf_guarded\n", strips,
+    printf("%d strips: %zu links, %.2f %% from %zu links of bf_guarded\n", STRIPS,
            s.refinement.link_count, 100 * off / all, other.refinement.link_count);
     ck_assert_double_lt(off, 0.02 * all);
     solve_close(&s);
@@ -177,7 +179,7 @@ int main(void)
     tcase_add_test(c, test_uneven);
     tcase_add_test(c, test_found);
     tcase_add_test(c, test_sum);
-    tcase_add_loop_test(c, test_strips, 0, 2);
+    tcase_add_test(c, test_strips);
     tcase_add_test(c, test_hand);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
