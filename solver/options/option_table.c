@@ -595,7 +595,7 @@ const struct option_row option_rows[] = {
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
     {"iterations", "N", MATRICES | FORM_FACTORS, "100000",
-     "sweeps of each pass at the most; solve ends with 3 if they do not do", "a whole number from 1",
+     "sweeps of a pass at the most; solve ends with 3 if they do not do", "a whole number from 1",
      WHOLE(iterations, 1, INT_MAX), .rare = 1},
     {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell, lu or petsc",
      WORD(read_solver, solver_words), .rare = 1},
