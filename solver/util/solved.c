@@ -53,8 +53,7 @@ void solved_cause(const struct RadReport *r, char text[SOLVED_CAUSE])
 {
     if (r->changing)
         snprintf(text, SOLVED_CAUSE,
-                 "%llu links still change after %d passes; allow more --iterations, or take larger "
-                 "thresholds (--set), which split less",
+                 "%llu links still change after %d passes; larger thresholds (--set) split less",
                  (unsigned long long)r->changing, r->passes);
     else
         snprintf(text, SOLVED_CAUSE, "allow more --iterations, or loosen --tolerance");

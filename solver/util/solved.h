@@ -31,7 +31,7 @@ void solved_take(struct solved *s, RadScene scene, RadSolution solution);
 void solved_close(struct solved *s);
 
 /* Why the answer is not converged, and what to do: a phrase. */
-enum { SOLVED_CAUSE = 160 };
+enum { SOLVED_CAUSE = 128 };
 void solved_cause(const struct RadReport *report, char text[SOLVED_CAUSE]);
 
 /* What the exit status has of it: 0, or of an answer that is not converged 3, after a warning that
