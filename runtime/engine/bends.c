@@ -63,8 +63,7 @@ static void add_link(const struct bending *x, size_t link, const double (*inside
     const uint32_t bands = x->op->problem->bands;
     double factor[5], within[INSIDE];
     struct polygon front;
-    (void)corner_factors(r, &elements[l->emitter], factor);
-    point_factor_clip(&front, r, &elements[l->emitter]);
+    corner_factors_in(r, &elements[l->emitter], &front, factor);
     for (int i = 0; i < INSIDE; i += AT_ONCE)
         point_factors_at(AT_ONCE, &inside[i], r, &elements[l->emitter], &front, &within[i]);
     for (uint32_t k = 0; k < bands; k++) {
@@ -141,7 +140,8 @@ static void measure(const void *bending, size_t from, size_t to)
         const struct element *r = &x->op->hierarchy->elements[e];
         struct light_at at = {{0}, {{0}}, {{0}}};
         double inside[INSIDE][3], base[3][INSIDE];
-        if (!r->vertices || !shares_mine(&x->op->shares, (uint32_t)e))
+        if (!r->vertices || f->first_link[e] == f->first_link[e + 1]
+            || !shares_mine(&x->op->shares, (uint32_t)e))
             continue;
         points_inside(r, inside);
         linear_inside(r, (const double(*)[3])inside, base);

@@ -8,17 +8,24 @@
 #include "kernel/point_factor.h"
 #include "kernel/surface_point.h"
 
-/* f[0]: the centre's, then the corners'. Returns 0 when no part of s is in front of r. */
-static inline int corner_factors(const struct element *r, const struct element *s, double f[5])
+/* f[0]: the centre's, then the corners'. *q becomes the part of s in front of r. */
+static inline void corner_factors_in(const struct element *r, const struct element *s,
+                                     struct polygon *q, double f[5])
 {
-    struct polygon q;
     double x[5][3];
-    point_factor_clip(&q, r, s);
+    point_factor_clip(q, r, s);
     for (int k = 0; k < 3; k++)
         x[0][k] = r->centre[k];
     for (int i = 0; i < r->vertices; i++)
         surface_corner(x[1 + i], r, i);
-    point_factors_at(1 + r->vertices, (const double(*)[3])x, r, s, &q, f);
+    point_factors_at(1 + r->vertices, (const double(*)[3])x, r, s, q, f);
+}
+
+/* The same. Returns 0 when no part of s is in front of r. */
+static inline int corner_factors(const struct element *r, const struct element *s, double f[5])
+{
+    struct polygon q;
+    corner_factors_in(r, s, &q, f);
     return q.n > 0;
 }
 

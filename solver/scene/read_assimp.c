@@ -162,11 +162,11 @@ static int import(struct scene_file *file, const char *path)
     const char *cause = r.assimp->aiGetErrorString();
     if (strstr(cause, "bad_alloc") || strstr(cause, "length_error"))
         return IMPORT_MEMORY;
-    char words[512];
     if (strstr(cause, "No suitable reader"))
         return report_error(path, 0,
                             "cannot be read as a scene: a format that is not known here; check the "
                             "name, radiosity --help tells the formats");
+    char words[512];
     snprintf(words, sizeof words, "%s", cause);
     to_one_line(words);
     return report_error(
