@@ -729,6 +729,8 @@ struct RadMeasureOptions {
     uint32_t stream;
     /* 1: the errors over the surfaces, l2 and p999, too */
     int surfaces;
+    /* 1: of polygons and of all light alone, a fifth faster: radGetElementErrors gives nothing */
+    int polygons;
 };
 #define RAD_MEASURE_SHARE 0.01
 #define RAD_MEASURE_MENDED 0.05
@@ -785,7 +787,7 @@ RAD_API int radGetPolygonErrors(RadSolution solution, uint32_t band, double *err
  * of all other elements: [element * bands + band], W/m2. What a leaf's own particles do not tell is
  * told by the smallest part of its face around it that is surely off by another share; in 95 of 100
  * measurements of a solution that is right all are 0. The solution's own until it is measured again
- * or stepped; NULL: nothing has been measured, or there is no memory for it.
+ * or stepped; NULL: nothing has been measured of leaves, or there is no memory for it.
  * [engine/element_error.c] */
 RAD_API const double *radGetElementErrors(RadSolution solution);
 /* The same of what the modulus of that difference is below, in 95 of 100 leaves: the mean over such
@@ -811,6 +813,9 @@ struct RadCorrectOptions {
      * shows, of leaves of other ranks, the whole, radGetElementErrors nothing, and links are not
      * stepped on from there; until surfaces are measured, which all quarters are needed for */
     int own;
+    /* 1: a look, to learn what so many rays would leave: polygons that are too dim for particles
+     * are not asked by paths, which may take many times as many rays */
+    int look;
 };
 #define RAD_CORRECT_NOISE 0.0065
 #define RAD_CORRECT_LEFT 0.008

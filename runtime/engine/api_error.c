@@ -59,7 +59,8 @@ int radMeasureError(RadSolution solution, const struct RadMeasureOptions *given,
                                             least_rays(solution, o->surfaces));
     const char *cause;
     measured_error_free(&solution->measured);
-    if (measure_error(&solution->solve, rays, 1 + (uint64_t)o->stream, o->surfaces,
+    if (measure_error(&solution->solve, rays, 1 + (uint64_t)o->stream,
+                      (o->surfaces ? MEASURE_SURFACES : 0) | (o->polygons ? MEASURE_NO_LEAVES : 0),
                       &solution->measured, &cause)
         < 0)
         return api_give_up(solution, cause);
@@ -154,7 +155,7 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                         "for the default",
                         o->noise);
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
-    struct mending_goal goal = {.noise = noise, .most = o->rays, .own = o->own};
+    struct mending_goal goal = {.noise = noise, .most = o->rays, .own = o->own, .look = o->look};
     if (!o->rays) {
         goal.left = o->noise > 0 ? 0 : RAD_CORRECT_LEFT;
         goal.power = RAD_CORRECT_POWER;

@@ -29,6 +29,15 @@ static double received(const struct solve *s, uint32_t leaf)
     return sum * s->hierarchy.elements[leaf].area;
 }
 
+/* How many quarters, of all sizes, that makes of a leaf of so many parts, about. */
+static double quarters_of(double parts)
+{
+    double sum = 0;
+    for (double n = 1; n < parts; n *= 4)
+        sum += 4 * n;
+    return sum;
+}
+
 /* Split until a leaf is worth no more than one part of so many. Returns 0, or -1 when out of
  * memory.
  */
@@ -122,17 +131,28 @@ static int split_leaf(struct solve *s, uint32_t leaf, double parts)
     return quarters_split(&s->quarters, &s->hierarchy, leaf, parts, own_quarters_mine(s, leaf));
 }
 
+/* Into how many parts an element is to be split, by what it receives and covers. */
+static double parts_of(const struct solve *s, uint32_t i, double per_watt, double per_m2)
+{
+    const struct element *e = &s->hierarchy.elements[i];
+    return e->vertices && !e->children && !e->black ? per_watt * received(s, i) + per_m2 * e->area
+                                                    : 0;
+}
+
 /* Split leaves into as many parts as what each receives and covers asks for. */
 static int split_leaves(struct solve *s, double per_watt, double per_m2)
 {
     struct hierarchy *h = &s->hierarchy;
     uint32_t first = h->count;
+    double more = 0;
     int failed = 0;
     if (!s->linear.gradient)
         return 0;
+    for (uint32_t i = 0; i < first && !own_quarters(s); i++)
+        more += quarters_of(parts_of(s, i, per_watt, per_m2));
+    failed = more > UINT32_MAX || hierarchy_reserve(h, (uint32_t)more) < 0;
     for (uint32_t i = 0; i < first && !failed; i++)
-        failed = h->elements[i].vertices && !h->elements[i].children && !h->elements[i].black
-                 && split_leaf(s, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0;
+        failed = split_leaf(s, i, parts_of(s, i, per_watt, per_m2)) < 0;
     failed = failed
              || (own_quarters(s)
                  && quarters_place(&s->quarters, h, s->operator.shares.owner,
@@ -154,13 +174,8 @@ static int deal_out(struct solve *s, double per_watt)
         free(quarters);
         return -1;
     }
-    for (uint32_t i = 0; i < h->count; i++) {
-        const struct element *e = &h->elements[i];
-        const double parts =
-            e->vertices && !e->children && !e->black ? per_watt * received(s, i) : 0;
-        for (double n = 1; n < parts; n *= 4)
-            quarters[e->face] += 4 * n;
-    }
+    for (uint32_t i = 0; i < h->count; i++)
+        quarters[h->elements[i].face] += quarters_of(parts_of(s, i, per_watt, 0));
     for (uint32_t f = 0; f < h->face_count; f++) /* a face itself is looked at, too */
         quarters[f]++;
     const int result = own_quarters_begin(s, quarters);

@@ -93,10 +93,8 @@ static int measure_faces(struct solve *s, struct tally *tally, struct measured_e
 
 int measured_elements(const struct solve *s, struct measured_error *m)
 {
-    if (m->elements.error || !m->tally.face)
+    if (m->elements.error || !m->tally.face || (!m->tally.element && !m->by_paths))
         return 0;
-    if (!m->tally.element && !m->by_paths)
-        return -1;
     if (element_error_open(&m->elements, &s->operator, & m->faces, &m->tally,
                            solve_shown(s)->irradiance)
         < 0)
@@ -130,13 +128,13 @@ static int measure_surfaces(struct solve *s, const struct tracer *t, uint64_t ra
     return tail_error_measure(s, t, &shown, rays, stream, &watch, &m->p999, &m->rays);
 }
 
-/* Particles, or paths where these have mended, on polygons, and on leaves where all have them;
- * about so many rays of `all`. Returns 0, or -1 when cancelled or out of memory. */
+/* Particles, or paths where these have mended, on polygons, and, if asked for, on leaves where all
+ * have them; about so many rays of `all`. Returns 0, or -1 when cancelled or out of memory. */
 static int count(struct solve *s, const struct tracer *t, uint64_t rays, double all,
-                 uint64_t stream, struct tally *tally)
+                 uint64_t stream, int leaves, struct tally *tally)
 {
     if (!s->by_paths)
-        return tally_open(tally, t, stream, !own_quarters(s)) < 0
+        return tally_open(tally, t, stream, leaves && !own_quarters(s)) < 0
                        || trace_rays(s, t, tally, rays, all) < 0
                    ? -1
                    : 0;
@@ -151,20 +149,21 @@ static int count(struct solve *s, const struct tracer *t, uint64_t rays, double 
     return failed ? -1 : 0;
 }
 
-int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
+int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int what,
                   struct measured_error *m, const char **cause)
 {
+    const int surfaces = what & MEASURE_SURFACES, leaves = !(what & MEASURE_NO_LEAVES);
     uint64_t each = surfaces ? rays * 3 / 10 : 0, counted = rays - 2 * each;
     double start = seconds();
     struct tracer t = solve_tracer(s);
     s->told = 0;
     *m = (struct measured_error){0};
-    int result = tracer_open(&t) < 0 || count(s, &t, counted, (double)rays, stream, &m->tally) < 0
-                         || measure_faces(s, &m->tally, m) < 0
-                         || (surfaces && own_quarters_share(s) < 0)
-                         || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
-                     ? give_up(s, cause)
-                     : 0;
+    int result =
+        tracer_open(&t) < 0 || count(s, &t, counted, (double)rays, stream, leaves, &m->tally) < 0
+                || measure_faces(s, &m->tally, m) < 0 || (surfaces && own_quarters_share(s) < 0)
+                || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
+            ? give_up(s, cause)
+            : 0;
     tracer_close(&t);
     m->seconds = seconds() - start;
     if (result < 0)
@@ -268,8 +267,8 @@ static int follow_counted(struct solve *s, struct tally *tally)
 
 /* By what particles counted, and then by paths, if there are any. */
 static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
-                const struct tally *paths, double unaided, struct measured_error *alone,
-                uint64_t *spent)
+                const struct tally *paths, const struct mending_goal *goal, double unaided,
+                struct measured_error *alone, uint64_t *spent)
 {
     tally_add(tally, t->ranks);
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
@@ -281,7 +280,7 @@ static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
         if (mend_by(s, tally, m->irradiance) == 0
             && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_counted(s, tally) == 0
-            && mend_dim(s, t, paths ? paths : tally, unaided, alone, spent) == 0)
+            && (goal->look || mend_dim(s, t, paths ? paths : tally, unaided, alone, spent) == 0))
             return 0;
     }
     solve_forget_mended(s);
@@ -358,9 +357,11 @@ static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally
     return 0;
 }
 
-/* How many are to land, about: leaves are made for no more. */
+/* How many are to land, about: leaves are made for no more. A look tells of polygons alone. */
 static double landings(const struct mending_goal *goal)
 {
+    if (goal->look)
+        return 0;
     double expected = fmax(goal->expected, DETAIL_LANDINGS * (double)goal->least);
     return goal->places > 0 ? fmin(expected, (double)goal->most) : (double)goal->most;
 }
@@ -449,9 +450,10 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
         s->report.particles = tally_fingerprint(&tally, t.ranks)
                               + (s->by_paths ? tally_fingerprint(&paths.tally, t.ranks) : 0);
     }
-    failed = failed
-             || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, unaided, alone, &spent) < 0
-             || detail_merge(s, elements) < 0 || (!goal->own && own_quarters_share(s) < 0);
+    failed =
+        failed
+        || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, goal, unaided, alone, &spent) < 0
+        || detail_merge(s, elements) < 0 || (!goal->own && own_quarters_share(s) < 0);
     if (failed)
         s->report.particles = 0;
     alone->rays = tally.rays + paths.paths.rays;

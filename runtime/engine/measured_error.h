@@ -15,7 +15,8 @@
 struct measured_error {
     struct face_error faces;
     struct RadMeasure l2, p999;    /* of surfaces, where they were asked for; else all zero */
-    struct element_error elements; /* NULLs until measured_elements makes it of what is counted */
+    struct element_error elements; /* NULLs until measured_elements makes it of what is counted; and
+                                    * for good where leaves were not counted on */
     struct tally tally;
     struct black_backs backs;
     struct dim_count dim;     /* once mended, by measure_and_mend alone */
@@ -24,11 +25,12 @@ struct measured_error {
     double seconds;
 };
 
-/* Measure what solve_shown says by about so many rays, over the surfaces, too, where that is asked
- * for (three fifths of the rays go there), with random numbers of a stream that the
- * solution has not been mended with (any but MEND_STREAM). Returns 0, or -1 with *cause set. */
+/* Measure what solve_shown says by about so many rays, with random numbers of a stream that the
+ * solution has not been mended with (any but MEND_STREAM); `what` adds over the surfaces, too, by
+ * three fifths of the rays, or leaves out leaves. Returns 0, or -1 with *cause set. */
 enum { MEND_STREAM = 0 };
-int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
+enum { MEASURE_SURFACES = 1, MEASURE_NO_LEAVES = 2 };
+int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int what,
                   struct measured_error *m, const char **cause);
 /* m->elements, of a solution that has not changed since it was measured. Few ask for it. Returns 0,
  * or -1 when out of memory. */
@@ -50,6 +52,7 @@ struct mending_goal {
     uint64_t least;  /* rays, about, before that is looked at */
     double expected; /* rays that may be needed for it; 0: nothing is known */
     int own;         /* 1: quarters may stay with the ranks that own their faces (own_quarters.h) */
+    int look;        /* 1: polygons that are too dim for particles stay as they are */
 };
 
 /* Mend the radiosities of the links, which a mended solution then shows. *alone: the links' error

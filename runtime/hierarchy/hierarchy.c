@@ -75,8 +75,7 @@ void element_measure_cluster(struct element *e, const struct face_share *share,
     e->radius = 0.5 * length3(axis);
 }
 
-/* Room for so many elements more. */
-static int reserve_elements(struct hierarchy *h, uint32_t more)
+int hierarchy_reserve(struct hierarchy *h, uint32_t more)
 {
     if (more > UINT32_MAX - h->count)
         return -1;
@@ -194,7 +193,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     h->face_element = malloc(face_count * sizeof *h->face_element);
     h->range = malloc(((size_t)t.count + dark) * sizeof *h->range);
     share = malloc(face_count * sizeof *share);
-    if (!h->face_element || !h->range || !share || reserve_elements(h, t.count + dark) < 0)
+    if (!h->face_element || !h->range || !share || hierarchy_reserve(h, t.count + dark) < 0)
         goto done;
     h->count = h->built = t.count;
     memcpy(h->low, t.boxes[0].low, sizeof h->low);
@@ -225,7 +224,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
     uint32_t first = h->count;
     if (h->elements[element].children)
         return 0;
-    if (reserve_elements(h, 4) < 0)
+    if (hierarchy_reserve(h, 4) < 0)
         return -1;
     struct element *e = &h->elements[element];
     for (uint32_t i = 0; i < 4; i++) {

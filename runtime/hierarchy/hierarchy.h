@@ -71,6 +71,11 @@ int hierarchy_build(struct hierarchy *h, const struct face *faces, uint32_t face
 int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count,
                        enum clustering strategy, int threads);
 
+/* Room for so many elements more, lest a stretch of splits move all elements again and again.
+ * Pointers into `elements` may move. Returns 0, or -1 when out of memory; then nothing has changed.
+ */
+int hierarchy_reserve(struct hierarchy *h, uint32_t more);
+
 /* Split a surface in four, unless it is split. Pointers into `elements` may move.
  * Returns 0, or -1 when out of memory or out of indices; then nothing has changed. */
 int hierarchy_split(struct hierarchy *h, uint32_t element);

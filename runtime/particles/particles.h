@@ -65,6 +65,7 @@ struct tally {
     double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
+    int alone;               /* 1: one thread counts, at a time */
     int by_paths;            /* 1: paths stand for particles (path_tally.h) */
     /* 1: each rank has counts of its own, which nobody has added yet: of faces, with `lost`; of
      * leaves */

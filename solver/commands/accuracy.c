@@ -3,11 +3,12 @@
  * Two things bring the error down. Particles mend what elements hold, so they alone bring down the
  * error of faces and of all light together, whatever the links are; finer elements bring down what
  * varies within one. So links come coarse first, and what is dearer waits until a measurement asks
- * for it: after each the particles are made as many as its interval says are needed, for noise
- * falls with their square root; and for errors over the surface (L2) the last step of either kind
- * tells which of the two gained more per ray. The interval's end counts, not its middle, and each
- * measurement takes particles that nothing else has seen: so when it says that the error is small
- * enough, that is so in 97.5 % of cases.
+ * for it: the particles are made as many as the last interval says are needed, for noise falls
+ * with their square root; and for errors over the surface (L2) the last step of either kind tells
+ * which of the two gained more per ray. Each step begins anew, with all its particles: so a few
+ * looks, each a small part of what is to come, say how many that is, and mostly one step does. The
+ * interval's end counts, not its middle, and each measurement takes particles that nothing else has
+ * seen: so when it says that the error is small enough, that is so in 97.5 % of cases.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,8 @@
 #include "util/device.h"
 #include "util/report.h"
 
-enum { FIRST_RAYS = 1 << 16 }; /* of mending, and as many of measuring */
+/* rays of mending, and as many of measuring: of a first look; and at the least */
+enum { FIRST_LOOK = 1 << 14, FIRST_RAYS = 1 << 16 };
 
 /* how coarse links are at first, against what is set; and at the finest */
 static const double COARSEST = 8, FINEST = 1.0 / 1024;
@@ -47,21 +49,22 @@ struct work {
     double start;
 };
 
-/* Mend by so many rays, and measure by as many others. Returns 0, or -1 after a message. */
-static int mend_and_measure(struct work *w, uint64_t rays)
+/* Mend by so many rays, and measure by as many others; or only look. Returns 0, or -1 after a
+ * message. */
+static int mend_and_measure(struct work *w, uint64_t rays, int look)
 {
-    const struct RadCorrectOptions correct = {.noise = 1e-9, .rays = rays};
+    const struct RadCorrectOptions correct = {.noise = 1e-9, .rays = rays, .look = look};
     const struct RadMeasureOptions measure = {.rays = rays,
                                               .stream = (uint32_t)w->a->measurements++,
-                                              .surfaces = w->o->norm == ACCURACY_L2};
-    uint64_t before = w->m->mended ? w->m->alone.rays : 0;
+                                              .surfaces = w->o->norm == ACCURACY_L2,
+                                              .polygons = look || !measured_wants_leaves(w->o)};
     if (radCorrect(w->s->solution, &correct, &w->m->alone) < 0
         || radMeasureError(w->s->solution, &measure, &w->m->error) < 0) {
         solved_close(w->s);
         return report_device(w->device, w->o->scene);
     }
     w->m->mended = w->m->measured = 1;
-    w->a->rays += w->m->alone.rays - before + w->m->error.rays;
+    w->a->rays += w->m->alone.rays + w->m->error.rays;
     return 0;
 }
 
@@ -85,36 +88,49 @@ static const char *limit(const struct work *w, double next_rays)
     return rays_left(w, &why) < next_rays ? why : NULL;
 }
 
-/* At the least and at the most, how often as many rays a step takes as the last one. */
+/* Of a step that did not reach: the next one takes so many times its rays at the least, and at the
+ * most. */
 static const double LEAST_MORE = 1.5, MOST_MORE = 16;
+
+/* A look takes at most so many times the rays of the one before, and, if that may be, this share of
+ * those to come. */
+static const double LOOKS_MORE = 64, LOOKS = 1.0 / 16;
 
 /* Of the rays that are left a step may count on so many: seconds of some rays are longer. Chosen */
 static const double SURE_LEFT = 0.8;
 
-/* How often as many rays a reach asks for. */
-static double more_rays(double reached, double wanted)
-{
-    double ratio = reached / (0.9 * wanted);
-    return fmin(fmax(ratio * ratio, LEAST_MORE), MOST_MORE);
-}
+/* What a step aims at, of the error that is wanted: from one measurement to another the interval's
+ * end differs by a sixth, so that two in seven steps would miss if they aimed at nine tenths, and
+ * one in seven does. */
+static const double AIM = 0.8;
 
 /* Particles until the error is reached or something ends it. The last step is as large as what is
  * left: it mends, though it will not reach. */
-static int by_particles(struct work *w, double rays)
+static int by_particles(struct work *w)
 {
-    double wanted = w->o->accuracy;
-    for (;;) {
+    const double wanted = w->o->accuracy;
+    double rays = FIRST_LOOK;
+    for (int look = 1;;) {
         const char *why;
         const uint64_t before = w->a->rays;
-        if (mend_and_measure(w, (uint64_t)rays) < 0)
+        if (mend_and_measure(w, (uint64_t)rays, look) < 0)
             return -1;
-        double reached = reach(w->o, w->m);
-        if (reached <= wanted)
+        const double reached = reach(w->o, w->m), ratio = reached / (AIM * wanted);
+        if (!look && reached <= wanted)
             return w->a->reached = 1, 0;
-        const double most = SURE_LEFT * rays_left(w, &why) / (double)(w->a->rays - before);
-        if (most < LEAST_MORE)
+        /* how often as many rays there may be, and are to be */
+        const double most = SURE_LEFT * rays_left(w, &why) / (double)(w->a->rays - before),
+                     times = fmin(ratio * ratio, most);
+        if (!look && most < LEAST_MORE)
             return w->a->why = why, 0;
-        rays *= fmin(more_rays(reached, wanted), most);
+        if (!look) {
+            rays *= fmin(fmax(times, LEAST_MORE), MOST_MORE);
+        } else if (times * LOOKS > 1) {
+            rays *= fmin(times * LOOKS, LOOKS_MORE);
+        } else {
+            rays = fmax(rays * times, FIRST_RAYS);
+            look = 0;
+        }
     }
 }
 
@@ -136,7 +152,7 @@ static int by_both(struct work *w)
 {
     double wanted = w->o->accuracy, rays = FIRST_RAYS, scale = w->a->scale;
     double gain[2] = {INFINITY, INFINITY}; /* per ray: of particles, of links */
-    if (mend_and_measure(w, (uint64_t)rays) < 0)
+    if (mend_and_measure(w, (uint64_t)rays, 0) < 0)
         return -1;
     for (;;) {
         double before = reach(w->o, w->m), cost = (double)w->a->rays;
@@ -154,7 +170,7 @@ static int by_both(struct work *w)
         } else {
             rays *= 4;
         }
-        if (mend_and_measure(w, (uint64_t)rays) < 0)
+        if (mend_and_measure(w, (uint64_t)rays, 0) < 0)
             return -1;
         gain[links] = log(before / reach(w->o, w->m)) / ((double)w->a->rays - cost);
         if (!(gain[links] > 0))
@@ -172,7 +188,7 @@ int accuracy_solve(struct accuracy *a, struct solved *s, struct measured *m,
     *a = (struct accuracy){0};
     if (solve_at(&w, w.thresholds > 0 ? COARSEST : 1) < 0)
         return -1;
-    int status = o->norm == ACCURACY_L2 ? by_both(&w) : by_particles(&w, FIRST_RAYS);
+    int status = o->norm == ACCURACY_L2 ? by_both(&w) : by_particles(&w);
     a->seconds = seconds() - w.start;
     return status;
 }

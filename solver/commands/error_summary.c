@@ -8,6 +8,11 @@
 #include "util/device.h"
 #include "util/report.h"
 
+int measured_wants_leaves(const struct options *o)
+{
+    return o->out || o->image_error;
+}
+
 int measured_take(struct measured *m, const struct options *o, RadDevice device,
                   RadSolution solution)
 {
@@ -25,7 +30,8 @@ int measured_take(struct measured *m, const struct options *o, RadDevice device,
         radGetReport(solution, &report);
         const struct RadMeasureOptions how = {.surfaces = o->errors != ERRORS_UNSAID
                                                           || RAD_MEASURE_SHARE * (double)report.rays
-                                                                 > RAD_MEASURE_SURFACES};
+                                                                 > RAD_MEASURE_SURFACES,
+                                              .polygons = !measured_wants_leaves(o)};
         if (radMeasureError(solution, &how, &m->error) < 0)
             return report_device(device, o->scene);
         m->measured = 1;

@@ -16,6 +16,9 @@ struct measured {
     double account_seconds;
 };
 
+/* Does what is written show what is measured of leaves? */
+int measured_wants_leaves(const struct options *o);
+
 /* Mend and measure as the options say. Returns 0, or -1 after a message. */
 int measured_take(struct measured *m, const struct options *o, RadDevice device,
                   RadSolution solution);

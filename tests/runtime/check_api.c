@@ -330,6 +330,21 @@ static void expect_measured(RadSolution solution)
     ck_assert_ptr_nonnull(radGetElementErrorLimits(solution));
 }
 
+/* Of polygons alone: the same of them, nothing of leaves, and no error. */
+static void expect_polygons(RadDevice device, RadSolution solution)
+{
+    const struct RadMeasureOptions alone = {.polygons = 1};
+    double error[2][6];
+    expect_measured(solution);
+    ck_assert_int_eq(radGetPolygonErrors(solution, 0, error[0], NULL), 0);
+    ck_assert_int_eq(radMeasureError(solution, &alone, NULL), 0);
+    ck_assert_int_eq(radGetPolygonErrors(solution, 0, error[1], NULL), 0);
+    ck_assert_mem_eq(error[1], error[0], sizeof error[0]);
+    ck_assert_ptr_null(radGetElementErrors(solution));
+    ck_assert_ptr_null(radGetElementErrorLimits(solution));
+    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_NONE);
+}
+
 static void expect_unmeasured(RadDevice device, RadSolution solution)
 {
     double error[6];
@@ -351,6 +366,7 @@ START_TEST(test_measured_is_forgotten)
     expect_measured(solution);
     ck_assert_int_ge(radStep(solution), 0);
     expect_unmeasured(device, solution);
+    expect_polygons(device, solution);
     radReleaseSolution(solution);
 
     solution = radNewSolution(scene, oracle, NULL);

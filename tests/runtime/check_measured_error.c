@@ -418,6 +418,25 @@ START_TEST(test_detail)
 }
 END_TEST
 
+/* However many particles are to come, leaves are no more than about MEND_LEAVES: each is split
+ * until it is worth less than one of so many, which may leave a quarter of that. */
+START_TEST(test_most_leaves)
+{
+    struct scene scene;
+    struct solve s;
+    furnished_linear(&s, &scene, glows[0]);
+    const uint32_t before = s.hierarchy.count;
+    ck_assert_int_eq(detail_leaves(&s, 1e12), 0);
+    uint32_t leaves = 0;
+    for (uint32_t i = before; i < s.hierarchy.count; i++)
+        leaves += !s.hierarchy.elements[i].children;
+    ck_assert_double_gt(leaves, MEND_LEAVES);
+    ck_assert_double_lt(leaves, 4 * MEND_LEAVES);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* A copy of `count` numbers. */
 static double *copied(const double *values, size_t count)
 {
@@ -815,6 +834,7 @@ int main(void)
     tcase_add_test(tests, test_sliver);
     tcase_add_loop_test(tests, test_slopes, 0, GLOWS);
     tcase_add_loop_test(tests, test_detail, 0, GLOWS);
+    tcase_add_test(tests, test_most_leaves);
     tcase_add_loop_test(tests, test_merge, 0, GLOWS);
     tcase_add_test(tests, test_split);
     tcase_add_loop_test(tests, test_places, 0, GLOWS);
