@@ -161,7 +161,10 @@ static int choose(struct choosing *x, RadSolution *solution)
     x->so_far.rays += r.rays;
     x->so_far.seconds = seconds() - start;
     radReleaseSolution(*solution);
-    return solve(x, 1, 0, solution);
+    const int status = solve(x, 1, 0, solution);
+    if (status == 0)
+        (*solution)->linked = fmax(p.links, 0) + p.deviation;
+    return status;
 }
 
 RadSolution radSolveScene(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options,

@@ -155,7 +155,11 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                         "for the default",
                         o->noise);
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
-    struct mending_goal goal = {.noise = noise, .most = o->rays, .own = o->own, .look = o->look};
+    struct mending_goal goal = {.noise = noise,
+                                .most = o->rays,
+                                .own = o->own,
+                                .look = o->look,
+                                .linked = solution->linked};
     if (!o->rays) {
         goal.left = o->noise > 0 ? 0 : RAD_CORRECT_LEFT;
         goal.power = RAD_CORRECT_POWER;

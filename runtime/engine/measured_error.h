@@ -51,6 +51,7 @@ struct mending_goal {
     double places;   /* error on places, root mean square as ray_split.h; 0: not looked at */
     uint64_t least;  /* rays, about, before that is looked at */
     double expected; /* rays that may be needed for it; 0: nothing is known */
+    double linked;   /* squared error on places of links that these are finer than; 0: not known */
     int own;         /* 1: quarters may stay with the ranks that own their faces (own_quarters.h) */
     int look;        /* 1: polygons that are too dim for particles stay as they are */
 };

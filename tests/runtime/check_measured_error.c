@@ -437,6 +437,35 @@ START_TEST(test_most_leaves)
 }
 END_TEST
 
+/* The most elements while it is mended by so many particles. */
+static uint64_t held_by(double linked, int look)
+{
+    const struct mending_goal goal = {
+        .noise = 1e-9, .most = 400000, .linked = linked, .look = look};
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    furnished_linear(&s, &scene, glows[0]);
+    ck_assert_int_eq(measure_and_mend(&s, &goal, &alone, &cause), 0);
+    const uint64_t held = s.report.held;
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+    return held;
+}
+
+/* Where links are known to be nearer than what particles tell of a quarter there are none, nor in a
+ * look; where they are as far off, all. */
+START_TEST(test_worth)
+{
+    const uint64_t all = held_by(0, 0), none = held_by(0, 1);
+    ck_assert_uint_gt(all, 3 * none);
+    ck_assert_uint_eq(held_by(1, 0), all);
+    ck_assert_uint_eq(held_by(1e-5, 0), none);
+}
+END_TEST
+
 /* A copy of `count` numbers. */
 static double *copied(const double *values, size_t count)
 {
@@ -835,6 +864,7 @@ int main(void)
     tcase_add_loop_test(tests, test_slopes, 0, GLOWS);
     tcase_add_loop_test(tests, test_detail, 0, GLOWS);
     tcase_add_test(tests, test_most_leaves);
+    tcase_add_test(tests, test_worth);
     tcase_add_loop_test(tests, test_merge, 0, GLOWS);
     tcase_add_test(tests, test_split);
     tcase_add_loop_test(tests, test_places, 0, GLOWS);
