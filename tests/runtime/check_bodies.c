@@ -46,7 +46,7 @@ START_TEST(test_chance)
 {
     uint64_t state = (uint64_t)_i;
     struct seen seen = {0};
-    for (int scene = 0; scene < 40; scene++) {
+    for (int scene = 0; scene < (under_sanitizers() ? 16 : 40); scene++) {
         struct scene s;
         struct exchange_tree t;
         open_squares(&s);
@@ -128,7 +128,7 @@ START_TEST(test_in_line)
     look(&t, s.face_count, (const double(*)[3])x, 33, 2, &seen);
     exchange_tree_close(&t);
     made_close(&s);
-    for (int scene = 0; scene < 200; scene++) {
+    for (int scene = 0; scene < (under_sanitizers() ? 50 : 200); scene++) {
         double edges[3][3], corner[3], eyes[3][3];
         open_squares(&s);
         chance_edges(&state, 0.15, edges);
@@ -156,7 +156,7 @@ START_TEST(test_lattice)
 {
     uint64_t state = (uint64_t)(2000 + 1000 * _i);
     struct seen seen = {0};
-    for (int scene = 0; scene < 100; scene++) {
+    for (int scene = 0; scene < (under_sanitizers() ? 30 : 100); scene++) {
         struct scene s;
         struct exchange_tree t;
         double x[40][3];

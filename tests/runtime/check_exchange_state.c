@@ -397,7 +397,7 @@ START_TEST(test_unbelieved)
     const struct kept state = some_state(_i);
     struct kept made = {malloc(state.size), state.size, state.size};
     struct work w = begin(1);
-    const int runs = thorough() ? 20000 : under_sanitizers() ? 25 : 400;
+    const int runs = thorough() ? 20000 : under_sanitizers() ? 10 : 400;
     int believed = 0;
     for (int i = 0; i < runs; i++) {
         memcpy(made.bytes, state.bytes, state.size);

@@ -342,12 +342,12 @@ int main(void)
     Suite *suite = suite_create("flat groups");
     TCase *c = tcase_create("flat groups");
     tcase_set_timeout(c, 60);
-    tcase_add_loop_test(c, test_clouds, 0, 20);
-    tcase_add_loop_test(c, test_in_a_row, 0, 50);
+    tcase_add_loop_test(c, test_clouds, 0, under_sanitizers() ? 5 : 20);
+    tcase_add_loop_test(c, test_in_a_row, 0, under_sanitizers() ? 12 : 50);
     tcase_add_test(c, test_shapes);
     tcase_add_loop_test(c, test_cube, 0, 3);
     tcase_add_test(c, test_prisms);
-    tcase_add_loop_test(c, test_rounded, 0, 20);
+    tcase_add_loop_test(c, test_rounded, 0, under_sanitizers() ? 5 : 20);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

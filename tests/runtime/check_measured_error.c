@@ -118,7 +118,7 @@ END_TEST
 START_TEST(test_few)
 {
     static const double each[] = {0.01, 0.05, 0.3, 2};
-    const int streams = thorough() ? 100 : 24;
+    const int streams = thorough() ? 100 : under_sanitizers() ? 8 : 24;
     for (int i = 0; i < 4; i++) {
         struct cover c = {0, 0, 0, 0};
         struct chance chance = {hash64(77 + (uint64_t)i)};
@@ -182,7 +182,7 @@ END_TEST
  * most; so, too, where bands come with the same particles. */
 START_TEST(test_sure)
 {
-    const int tallies = thorough() ? 4000 : 400;
+    const int tallies = thorough() ? 4000 : under_sanitizers() ? 100 : 400;
     static const int particles[] = {16, 64, 16, 64};
     static const struct chance chances[] = {{7}, {7}, {3}, {3}}; /* a band, and three */
     for (int i = 0; i < 4; i++) {

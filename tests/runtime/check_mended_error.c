@@ -83,7 +83,7 @@ START_TEST(test_says)
     static const double targets[] = {0, 0.25, 0.5, 1, 2, 6}, unseen[] = {0.4, 0.25};
     for (int n = 0; n < 2; n++)
         for (int i = 0; i < (n ? 1 : 3); i++)
-            for (int j = 0; j < 6; j += 1 + n) {
+            for (int j = 0; j < 6; j += under_sanitizers() ? 5 : 1 + n) {
                 const struct means m =
                     mended(tiles[n], particles[i], targets[j], 21 + (uint64_t)(8 * i + j));
                 ck_assert_double_ge(m.said, 0.9 * m.after);

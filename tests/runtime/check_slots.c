@@ -114,7 +114,7 @@ int main(void)
     TCase *t = tcase_create("slots");
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_pit, 0, sizeof pit / sizeof *pit);
-    tcase_add_loop_test(t, test_hair, 0, 60);
+    tcase_add_loop_test(t, test_hair, 0, under_sanitizers() ? 12 : 60);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
