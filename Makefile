@@ -254,7 +254,7 @@ BITS      = language plain_math releases waves
 ONCE      = $(shell grep -l '^ \* Once is enough: ' $(wildcard tests/*/check_*.c)) $(shell grep -l '^. Once is enough: ' $(SCRIPTS))
 AGAIN     = $(if $(SANITIZE),$(filter-out $(ONCE:tests/%.c=$(BUILD)/tests/%),$(TESTS) $(SCRIPTS)),$(filter $(BITS:%=\%/check_%),$(TESTS)))
 check-again: all
-	@$(MAKE) $(JOBS) --no-print-directory $(TESTS:=.o) $(filter $(TESTS),$(AGAIN)) $(HELPERS)
+	@$(MAKE) $(JOBS) --no-print-directory $(if $(SANITIZE),,$(TESTS:=.o)) $(filter $(TESTS),$(AGAIN)) $(HELPERS)
 	@bash tests/run.sh $(BUILD) $(AGAIN)
 
 # Suites that hold numbers against the truth, in their long forms, which they have when THOROUGH is set; but group_entries,

@@ -156,7 +156,7 @@ START_TEST(test_lattice)
 {
     uint64_t state = (uint64_t)(2000 + 1000 * _i);
     struct seen seen = {0};
-    for (int scene = 0; scene < (under_sanitizers() ? 30 : 100); scene++) {
+    for (int scene = 0; scene < (under_sanitizers() ? 60 : 100); scene++) {
         struct scene s;
         struct exchange_tree t;
         double x[40][3];

@@ -2,6 +2,7 @@
 # check_panel.sh - the page that `radiosity panel` writes, in a real browser, by keyboard alone: controls change the command
 # line, the parameter file goes out and comes back, and the real `solve` takes both; a phone's width, light and dark, labels,
 # no error in the console, nothing asked of the network, no text of an oracle taken for markup. RADIOSITY names the command.
+# Once is enough: it is about a page.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 # shellcheck source=tests/support/browser.sh
