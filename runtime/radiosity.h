@@ -729,7 +729,7 @@ struct RadMeasureOptions {
     uint32_t stream;
     /* 1: the errors over the surfaces, l2 and p999, too */
     int surfaces;
-    /* 1: of polygons and of all light alone, a fifth faster: radGetElementErrors gives nothing */
+    /* 1: of polygons and all light alone, a fifth faster: radGetElementErrors may give nothing */
     int polygons;
 };
 #define RAD_MEASURE_SHARE 0.01
