@@ -18,6 +18,11 @@ bends of the last link | runtime/engine/bends.c | s/at->point.i..k. += factor/at
 bends at centre and corners alone | runtime/engine/bends.c | s/return sqrt(square . INSIDE);/return 0 * square;/ | runtime/check_bends
 bends that hand does not read | tests/hand/power.c | s/{FACT_RECEIVER_BEND};/{FACT_RECEIVER_AREA};/ | runtime/check_bends
 bends seen by nobody | runtime/engine/bends.c | s/in->changed.i. .= (unsigned char)/in->changed[i] += 0 * (unsigned char)/ | runtime/check_bends
+leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#define MEND_LEAVES (256/ | runtime/check_measured_error
+quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_measured_error
+dim faces at each look | runtime/engine/measured_error.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
+an error eight times as large | solver/commands/accuracy.c | s/reached <= wanted)/reached <= 8 * wanted)/ | solver/check_asked
+leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
 shafts of empty rooms | runtime/visibility/rays.c | s/return free_space_is_all(&rays->free)$/return 0/ | runtime/check_bends
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
 groups pay nothing | runtime/engine/row_sums.c | s/if (rows.sum > most \* rows.area)/if (0 \&\& rows.sum > most * rows.area)/ | runtime/check_transport

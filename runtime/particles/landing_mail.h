@@ -30,7 +30,7 @@ struct mail {
     int failed; /* out of memory: some are lost */
 };
 
-/* Count so much. A thread that counts alone needs no other to wait: that is four times as fast. */
+/* Count so much. A thread that counts alone need not lock what it counts on. */
 static inline void tally_raise(const struct tally *tally, _Atomic int64_t *count, int64_t w)
 {
     if (tally->alone)
