@@ -136,8 +136,8 @@ if [ -n "${THOROUGH:-}" ]; then
     check "2000 boxes: $told bytes told in sweeps of $ghosts elements" \
         below "$told" "$(awk "BEGIN { print 8 * $ghosts * $(value one.json iterations) }")"
 fi
-# Paths of dim polygons end in all quarters; but of others' they take the light, and not the quarters.
-several 3 "$radiosity" solve "$scenes/room.obj" -q --json several.json >said 2>&1
+# Paths of dim polygons end in all quarters; but of others' they take the light, and not the quarters. Where the scale is chosen there are none.
+several 3 "$radiosity" solve "$scenes/room.obj" --scale 1 -q --json several.json >said 2>&1
 held=$(sed -n 's/^      "elements": \([0-9]*\),*$/\1/p' several.json | sort -n | tr '\n' ' ')
 check "room: 3 ranks have had $held elements, as if each had all: $(head -n 3 said)" below "${held%% *}" "$(ranks_most elements | awk '{ print .7 * $1 }')"
 "$radiosity" solve "$scenes/cornell.obj" -q -o one.ply
