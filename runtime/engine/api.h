@@ -83,8 +83,7 @@ struct RadSolutionObject {
     RadOracle oracle;
     struct camera camera;
     struct solve solve;
-    struct ray_split places; /* of the links as they are; rays 0: not measured */
-    double linked; /* squared error on places of links that these are finer than; 0: not known */
+    struct ray_split places;        /* of the links as they are; rays 0: not measured */
     uint64_t mending_rays;          /* of the last radCorrect */
     struct measured_error measured; /* .elements NULLs: nothing has been, or not what is shown */
     struct trace trace;             /* of radTraceSolution */

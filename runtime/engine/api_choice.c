@@ -43,6 +43,7 @@ struct choosing {
     struct RadChoiceOptions wishes;
     struct RadChoice so_far;
     double *uncovered; /* [face], handed from solution to solution (engine/problem.h) */
+    double linked;     /* squared error of coarser links on places; 0: none are known */
 };
 
 /* Solve with links, or without any: *solution. A limit on pairs above 0 may be met. Returns 0, 1
@@ -65,6 +66,7 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
     if (!s)
         return -1;
     s->solve.problem.options.uncovered = x->uncovered;
+    s->solve.linked = x->linked;
     int status = 0;
     if (x->wishes.begin && x->wishes.begin(x->wishes.user, s, &x->so_far) != 0)
         status = api_fail(x->scene->device, RAD_ERROR_CANCELLED,
@@ -161,10 +163,8 @@ static int choose(struct choosing *x, RadSolution *solution)
     x->so_far.rays += r.rays;
     x->so_far.seconds = seconds() - start;
     radReleaseSolution(*solution);
-    const int status = solve(x, 1, 0, solution);
-    if (status == 0)
-        (*solution)->linked = fmax(p.links, 0) + p.deviation;
-    return status;
+    x->linked = fmax(p.links, 0) + p.deviation;
+    return solve(x, 1, 0, solution);
 }
 
 RadSolution radSolveScene(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options,

@@ -159,7 +159,7 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                                 .most = o->rays,
                                 .own = o->own,
                                 .look = o->look,
-                                .linked = solution->linked};
+                                .linked = solution->solve.linked};
     if (!o->rays) {
         goal.left = o->noise > 0 ? 0 : RAD_CORRECT_LEFT;
         goal.power = RAD_CORRECT_POWER;

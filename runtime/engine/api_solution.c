@@ -337,7 +337,6 @@ static void forget_measured(RadSolution solution)
 {
     measured_error_free(&solution->measured);
     solution->places.rays = 0;
-    solution->linked = 0;
 }
 
 int radStep(RadSolution solution)

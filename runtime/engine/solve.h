@@ -80,7 +80,7 @@ struct solve {
     struct error_control error;
     struct bracket bracket;
     struct ranking ranking;
-    int bends; /* the oracle reads how light bends over receivers (bends.h) */
+    int bends;                     /* the oracle reads how light bends over receivers (bends.h) */
     struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
     struct trace *trace; /* whoever is told of discussions, borrowed; NULL: nobody */
@@ -89,6 +89,7 @@ struct solve {
     void *between_context;
     const struct counting *counting; /* NULL: no particles are traced now */
     double told;                     /* the most rays that counting has told of */
+    double linked; /* squared error on places of links that these are finer than; 0: not known */
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;
     uint32_t started;

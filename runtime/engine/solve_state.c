@@ -180,6 +180,7 @@ int solve_state_make(struct solve_state *state, const struct solve *s,
     memcpy(&head[STATE_SECONDS], &s->report.seconds.refine, sizeof(double));
     memcpy(&head[STATE_SECONDS + 1], &s->report.seconds.iterate, sizeof(double));
     memcpy(&head[STATE_SECONDS + 2], &s->report.seconds.in_rays, sizeof(double));
+    memcpy(&head[STATE_LINKED], &s->linked, sizeof(double));
     const void *const data[] = {head,
                                 state->split,
                                 state->mark,
@@ -296,6 +297,7 @@ static void recount(struct solve *s, const uint64_t *head)
     const int first = ranks_number(s->problem.options.ranks) == 0;
     double seconds[3];
     memcpy(seconds, &head[STATE_SECONDS], sizeof seconds);
+    memcpy(&s->linked, &head[STATE_LINKED], sizeof s->linked);
     report->passes = (int)head[STATE_PASSES];
     report->sweeps = (int)head[STATE_SWEEPS];
     report->changing = head[STATE_CHANGING];

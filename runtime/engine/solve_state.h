@@ -30,7 +30,8 @@ enum solve_state_word {
     STATE_RAYS,
     STATE_DECIDED,
     STATE_SECONDS = STATE_DECIDED + 8, /* of refine, iterate, in_rays: the bits of doubles */
-    STATE_CHECKS = STATE_SECONDS + 3,  /* of each part, in their order; [0]: of the head */
+    STATE_LINKED = STATE_SECONDS + 3,  /* the bits of a double */
+    STATE_CHECKS,                      /* of each part, in their order; [0]: of the head */
     STATE_WORDS = STATE_CHECKS + RAD_STATE_PARTS
 };
 

@@ -11,7 +11,7 @@
 #include "util/machines.h"
 #include "util/report.h"
 
-static const char FORMAT[] = "radiosity checkpoint 1";
+static const char FORMAT[] = "radiosity checkpoint 2";
 
 /* ---- writing */
 
