@@ -18,8 +18,8 @@ bends of the last link | runtime/engine/bends.c | s/at->point.i..k. += factor/at
 bends at centre and corners alone | runtime/engine/bends.c | s/return sqrt(square . INSIDE);/return 0 * square;/ | runtime/check_bends
 bends that hand does not read | tests/hand/power.c | s/{FACT_RECEIVER_BEND};/{FACT_RECEIVER_AREA};/ | runtime/check_bends
 bends seen by nobody | runtime/engine/bends.c | s/in->changed.i. .= (unsigned char)/in->changed[i] += 0 * (unsigned char)/ | runtime/check_bends
-leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#define MEND_LEAVES (256/ | runtime/check_measured_error
-quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_measured_error
+leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#define MEND_LEAVES (256/ | runtime/check_detail
+quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
 dim faces at each look | runtime/engine/measured_error.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
 an error eight times as large | solver/commands/accuracy.c | s/reached <= wanted)/reached <= 8 * wanted)/ | solver/check_asked
 leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
@@ -83,7 +83,7 @@ moved off twice as far | runtime/kernel/cluster_batch.h | s/x->at\[k\]\[at\] + o
 columns out of order | runtime/kernel/rows.h | s/column\[1\] = __builtin_shufflevector(f, h, 0, 1, 4, 5)/column[1] = __builtin_shufflevector(f, h, 0, 1, 5, 4)/ | runtime/check_cluster_walk
 rules without their last points | runtime/engine/linear_coupling.c | s/at->count; i += FEW/at->count - FEW + 1; i += FEW/ | runtime/check_linear
 the emitter's slopes mixed | runtime/engine/linear_coupling.c | s/sum_2\[k\] += sent \* phi_2/sum_2[k] += sent * (phi_2 + 0.1 * phi_1)/ | runtime/check_linear
-seen from the other's front | runtime/engine/linear_coupling.c | s/(&at, r->normal/(\&at, s->normal/ | runtime/check_linear
+seen from the other's front | runtime/engine/linear_coupling.c | s/(at, r->e.normal/(at, s->e.normal/ | runtime/check_linear
 an interpreter that links | runtime/oracle/interpreter.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | dagc/check_prove
 interpreter: arcs of the first | runtime/oracle/interpreter.c | s/: dag->nodes\[t->index\].order;/: dag->nodes[t->index].order + (i == 0 \&\& k == 0);/ | dagc/check_prove
 defaults emitted 7 | dagc/emit/emit_c.c | /static void print_value/,/^}/s/dag_print_number(out, parameter->value)/dag_print_number(out, 7)/ | dagc/check_prove
@@ -99,7 +99,7 @@ parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0
 libraries: the first counts | solver/scene/materials_by_name.c | s/^    \*slot = n;/    if (*slot == NONE) *slot = n;/ | solver/check_damaged
 damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/check == wanted || wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
 more behind a state | runtime/engine/exchange_state_read.c | s/|| judge(s, state_get_end(&s->in)) < 0// | runtime/check_exchange_state
-a block of a state is left out | runtime/engine/exchange_areas.c | s/i >= f->read ||/i > f->read ||/ | runtime/check_exchange_state
+a block of a state is left out | runtime/engine/exchange_fill.c | s/(i >= f->read/(i > f->read/ | runtime/check_exchange_state
 a state of other parameters | runtime/engine/state_identity.c | s/hash = state_mix(hash, &value, sizeof value);/(void)value;/ | runtime/check_exchange_state
 unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work
 a proof's folder stays     | dagc/prove/compile.c | s/dag_tidy_push(&tidy);/(void)tidy;/ | dagc/check_signals
@@ -114,7 +114,7 @@ parts that are right stay parts | runtime/engine/element_error.c | s/s->told = i
 limits without noise | runtime/engine/element_error.c | s/ELEMENT_ERROR_LIMIT \* sqrt/0.01 * sqrt/ | runtime/check_element_error
 bands by themselves | runtime/engine/face_error.c | s/noise += c->deviation\[j\]/noise = hypot(noise, c->deviation[j])/ | runtime/check_element_error
 what is covered is handed light | runtime/engine/operator.h | s/return op->uncovered\[e\] > 0 ? op->uncovered\[j\] \/ op->uncovered\[e\] : 1;/return 1 + 0 * op->uncovered[e + 0 * j];/ | runtime/check_transport
-what leaves is still here | runtime/particles/power_balance.c | s/= ended + tally_unit/= ended + 0 * tally_unit/ | runtime/check_power_balance
+what leaves is still here | runtime/particles/power_balance.c | s/= ended\[k\] + unit/= ended[k] + 0 * unit/ | runtime/check_power_balance
 leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correction\[REPLICATES\]\[band\])/1/ | runtime/check_power_balance
 hidden at its middle, hidden all over | runtime/engine/sight_outlines.c | s/met &= sight_faces_met/(void)sight_faces_met/ | runtime/check_outlines
 half of what stands before a piece | runtime/engine/exchange_sight.c | s/memcpy(list_of(l, at), b->list, (size_t)b->faces/& \/ 2/ | runtime/check_outlines
@@ -135,7 +135,7 @@ small shades are missed | runtime/engine/exchange_sight.c | s/node->error += mis
 parts of polygons count | runtime/engine/exchange_areas.c | s/how->tolerance, scene->input_count,/how->tolerance, tree->h.face_count,/ | runtime/check_entries
 faint pairs see all of each other | runtime/engine/exchange_sight.c | s/return clear \* share;/return clear;/ | runtime/check_entries
 faint pairs see nothing | runtime/engine/exchange_sight.c | s/return clear \* share;/return 0 * share;/ | runtime/check_entries
-points stand for all | runtime/engine/exchange_sight.c | s/node->unseen = fabs(/node->unseen = 0 * fabs(/ | runtime/check_sight_rays
+points stand for all | runtime/engine/exchange_sight.c | s/node->unseen = fmax(fabs(/node->unseen = 0 * fmax(fabs(/ | runtime/check_sight_rays
 points stand for directions | runtime/engine/sight_rays.c | s/FAR = 4/FAR = 0/ | runtime/check_sight_rays
 no one more is lost | runtime/engine/face_error.c | s/noise + 1 \/ (particles \* particles)/noise/ | runtime/check_measured_error
 few particles seem normal | runtime/engine/face_error.c | s/count >= FACE_ERROR_MANY/1/ | runtime/check_measured_error
@@ -172,7 +172,7 @@ oracles' rays as near as shafts | runtime/engine/exchange_tree.c | s/if (!(more 
 covered rows are not looked at again | runtime/engine/exchange.c | s/(!(covered > 0) ../(!(covered > 0) \&\&/ | runtime/check_assemblies
 a corner beyond is between | runtime/hierarchy/flat_hull.c | s/!(across(hull\[count - 2\], hull\[count - 1\], p) > 0)/!turns(hull[count - 2], hull[count - 1], p)/ | runtime/check_flat_groups
 contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
-emitters of one leaf | runtime/engine/detail.c | s/failed = h->elements\[i\].vertices \&\& /failed = h->elements[i].vertices \&\& !(s->problem.exitance[h->elements[i].face * s->problem.bands] > 0) \&\& / | runtime/check_ambient
+emitters of one leaf | runtime/engine/detail.c | s/return e->vertices \&\& /return e->vertices \&\& !(s->problem.exitance[e->face * s->problem.bands] > 0) \&\& / | runtime/check_ambient
 corners below what is emitted | runtime/engine/linear_solution.c | s/x->means->value\[at\] - emitted/x->means->value[at] - 0 * emitted/ | runtime/check_measured_error
 edges of solids in large leaves | runtime/engine/covered_leaves.c | s/is_edge \&\& e->area > most/is_edge \&\& e->area > 64 * most/ | runtime/check_covered_leaves
 large neighbours of small leaves | runtime/engine/covered_leaves.c | s/depth + 1 >= e.depth/depth + 3 >= e.depth/ | runtime/check_covered_leaves
@@ -201,7 +201,7 @@ shadows are beside too soon | runtime/engine/sight_rims.c | s/APART = 1e-6/APART
 nothing is seen from within | runtime/engine/sight_casting.c | s/body->foot ? REST_UNTOLD : REST_ALL/REST_ALL/ | runtime/check_bodies
 low points are told | runtime/engine/sight_rims.c | s/LOW = 10/LOW = 0/ | runtime/check_bodies
 open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies
-plates are solids | runtime/hierarchy/bodies.c | s/deepest < -8 \* s->h->flat/deepest <= 0/ | runtime/check_bodies
+plates are solids | runtime/hierarchy/body_lids.c | s/deepest < -8 \* s->h->flat/deepest <= 0/ | runtime/check_bodies
 dents are solid | runtime/hierarchy/bodies.c | s/high <= s->h->flat \&\&/1 \&\&/ | runtime/check_bodies
 rows stay off | runtime/kernel/constants.h | s/\(EXCHANGE_OFF\) *3.0$/\1 1e9/ | runtime/check_again
 legs are missed | runtime/kernel/constants.h | s/\(SIGHT_MISSED_MANY\) *5$/\1 0/ | runtime/check_again

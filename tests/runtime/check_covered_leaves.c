@@ -13,12 +13,7 @@
 /* made_room's floor; the box on it covers 1 m by 1.5 m of 4 m by 5 m, from (1.3, 1). */
 enum { FLOOR = 0 };
 
-static void furnished_linear(struct solve *s, struct scene *scene, int threads)
-{
-    static char *coarse[] = {"relative=0.3", NULL};
-    furnished(scene, 1);
-    solve_with(s, scene, "bf", RELEASE_FLAT, coarse, quick_linear(threads));
-}
+static char *coarse[] = {"relative=0.3", NULL};
 
 static int is_leaf_of(const struct solve *s, uint32_t i, uint32_t face)
 {
@@ -42,7 +37,7 @@ START_TEST(test_edge)
 {
     struct scene scene;
     struct solve s;
-    furnished_linear(&s, &scene, 1);
+    furnished_linear(&s, &scene, coarse, 0, 1);
     const double most = COVERED_SHARE * s.hierarchy.elements[0].area, power = s.report.absorbed,
                  before = shown_under(&s);
     const uint32_t count = s.hierarchy.count;
@@ -91,7 +86,7 @@ START_TEST(test_same_light)
     struct scene scene;
     struct solve s;
     static double before[SIDE * SIDE];
-    furnished_linear(&s, &scene, 1);
+    furnished_linear(&s, &scene, coarse, 0, 1);
     const uint32_t floor = s.hierarchy.face_element[FLOOR];
     for (int pass = 0; pass < 2; pass++) {
         if (pass == 1)
@@ -120,7 +115,7 @@ START_TEST(test_neighbours)
 {
     struct scene scene;
     struct solve s;
-    furnished_linear(&s, &scene, 1);
+    furnished_linear(&s, &scene, coarse, 0, 1);
     const uint32_t before = s.hierarchy.count;
     ck_assert_int_eq(covered_leaves(&s), 0);
     for (uint32_t i = before; i < s.hierarchy.count; i++) {
@@ -154,7 +149,7 @@ START_TEST(test_mended)
         struct solve s;
         struct measured_error alone;
         const char *cause;
-        furnished_linear(&s, &scene, threads);
+        furnished_linear(&s, &scene, coarse, 0, threads);
         ck_assert_int_eq(measure_and_mend(&s, &goal, &alone, &cause), 0);
         measured_error_free(&alone);
         const size_t size = s.hierarchy.count * sizeof *first;

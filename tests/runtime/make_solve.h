@@ -117,4 +117,18 @@ static inline void furnished(struct scene *s, double bright)
     made_quad(s, 2, 2.3, 1, 0, 0, 1.5, 0, 0, 0, 1);
 }
 
+/* What its walls emit themselves (W/m2), by loops: they are mended like walls that do not. */
+static const double furnished_glows[] = {0, 0.01};
+enum { FURNISHED_GLOWS = sizeof furnished_glows / sizeof *furnished_glows };
+
+/* It, solved with slopes; settings as of solve_with. */
+static inline void furnished_linear(struct solve *s, struct scene *scene, char *const *settings,
+                                    double glow, int threads)
+{
+    furnished(scene, 1);
+    for (int k = 0; k < 3; k++)
+        scene->materials[0].exitance[k] = glow;
+    solve_with(s, scene, "bf", RELEASE_FLAT, settings, quick_linear(threads));
+}
+
 #endif
