@@ -145,12 +145,11 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
     struct hierarchy *h = &s->hierarchy;
     uint32_t first = h->count;
     double more = 0;
-    int failed = 0;
     if (!s->linear.gradient)
         return 0;
     for (uint32_t i = 0; i < first && !own_quarters(s); i++)
         more += quarters_of(parts_of(s, i, per_watt, per_m2));
-    failed = more > UINT32_MAX || hierarchy_reserve(h, (uint32_t)more) < 0;
+    int failed = more > UINT32_MAX || hierarchy_reserve(h, (uint32_t)more) < 0;
     for (uint32_t i = 0; i < first && !failed; i++)
         failed = split_leaf(s, i, parts_of(s, i, per_watt, per_m2)) < 0;
     failed = failed

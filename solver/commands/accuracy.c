@@ -116,14 +116,14 @@ static int by_particles(struct work *w)
         if (mend_and_measure(w, (uint64_t)rays, look) < 0)
             return -1;
         const double reached = reach(w->o, w->m), ratio = reached / (AIM * wanted);
-        if (!look && reached <= wanted)
-            return w->a->reached = 1, 0;
         /* how often as many rays there may be, and are to be */
         const double most = SURE_LEFT * rays_left(w, &why) / (double)(w->a->rays - before),
                      times = fmin(ratio * ratio, most);
-        if (!look && most < LEAST_MORE)
-            return w->a->why = why, 0;
         if (!look) {
+            if (reached <= wanted)
+                return w->a->reached = 1, 0;
+            if (most < LEAST_MORE)
+                return w->a->why = why, 0;
             rays *= fmin(fmax(times, LEAST_MORE), MOST_MORE);
         } else if (times * LOOKS > 1) {
             rays *= fmin(times * LOOKS, LOOKS_MORE);

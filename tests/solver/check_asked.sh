@@ -7,9 +7,7 @@
 
 value() { awk -f "$top/tests/tables/json.awk" json | awk -v name="$1" '$1 == name { print $2 }'; }
 asked() { # SCENE OPTION...: solve
-    scene=$1
-    shift
-    "$radiosity" solve "$scene" "$@" --faces faces.csv --json json >out 2>err
+    "$radiosity" solve "$@" --faces faces.csv --json json >out 2>err
     result=$?
 }
 # NAME COLUMN LIMIT: of the errors of faces that `error` finds (%), the modulus; the reference's noise is a part of them
@@ -20,9 +18,9 @@ errs_by() {
         END { if (!found || e > limit) { print "off by", e; exit 1 } }' >said || failed "$1: $(cat said), $3 % asked for"
 }
 
-for name in cornell panels; do
-    file=$scenes/$name.obj
-    [ -f "$file" ] || file=$top/tests/runtime/$name.obj
+panels=$top/tests/runtime/panels.obj
+for file in "$scenes/cornell.obj" "$panels"; do
+    name=$(basename "$file")
     check "reference of $name" "$radiosity" reference "$file" -o ref.csv --accuracy 0.1% -q
     for norm in l1:0.4 power:0.5; do
         asked "$file" --accuracy $norm%
@@ -38,7 +36,7 @@ for name in cornell panels; do
 done
 
 # Dark faces are asked by paths once, not at each look: in panels they take a million rays.
-asked "$top/tests/runtime/panels.obj" --accuracy l1:1%
+asked "$panels" --accuracy l1:1%
 check "dim faces are asked once" awk -v all="$(value accuracy.rays)" -v mended="$(value correction.rays)" 'BEGIN { exit !(mended > 1e6 && all < 1.5 * mended) }'
 
 # Leaves are measured where they are shown, and faces come out the same.
