@@ -26,9 +26,13 @@ for file in "$scenes/cornell.obj" "$panels"; do
         asked "$file" --accuracy $norm%
         check "$name $norm: kept" sh -c "[ $result = 0 ] && grep -q '^accuracy .* kept: ' out"
         case $norm in
-            l1:*) errs_by "$name $norm" 3 "${norm#*:}" ;;
-            *) errs_by "$name $norm" 2 "${norm#*:}" ;;
+            l1:*) column=3 told=l1_faces ;;
+            *) column=2 told=power ;;
         esac
+        errs_by "$name $norm" $column "${norm#*:}"
+        # What is told is kept by the interval's end.
+        check "$name $norm: the interval" awk -v low="$(value error.$told.low)" -v high="$(value error.$told.high)" -v wanted="${norm#*:}" '
+            BEGIN { exit !(high != "" && high <= wanted / 100 && low >= -wanted / 100) }'
         # Each step that did not do is followed by one of half as many rays again; looks are a small part.
         check "$name $norm: few steps" awk -v all="$(value accuracy.rays)" -v mended="$(value correction.rays)" '
             BEGIN { exit !(all > 0 && mended > 0 && all < 6 * mended) }'
