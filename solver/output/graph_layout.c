@@ -79,12 +79,14 @@ static void print_dot(FILE *out, const struct drawing *p)
 /* The status of dot from one file to the other; -1: it did not end by itself. */
 static int run_dot(FILE *from, FILE *to)
 {
+    const pid_t parent = getpid();
     pid_t child = fork();
     if (child == 0) {
 #ifdef __linux__
         prctl(PR_SET_PDEATHSIG, SIGTERM); /* whoever is killed wants no drawing any more */
 #endif
-        if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
+        if (getppid() == parent && /* it may have been killed before the system was told so */
+            dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
             execlp("dot", "dot", "-Tjson0", (char *)NULL);
         _exit(NOT_RUN);
     }
