@@ -23,7 +23,7 @@
 #include "geometry.h"
 
 /* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
-#define RUNTIME_ABI 13
+#define RUNTIME_ABI 14
 
 #include "catalog.h" /* generated from catalog.dag: answers, levels, struct terms, decisions */
 
@@ -59,7 +59,7 @@ struct element {
     /* half the area mean of |B - its mean| below the element, W/m2: the most that light to a place
      * which sees only a part of the element may differ by. Constant during a round */
     double deviation;
-    double reflectance; /* rho, largest band; cluster: area mean */
+    double reflectance; /* rho, largest band; cluster: of the whitest of its faces */
     /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
     double importance;
     /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
@@ -128,6 +128,7 @@ struct host {
     double extent;      /* longest side of the scene's box (m) */
     double exitance;    /* the largest E, W/m2 */
     double reflectance; /* the largest rho */
+    double mean_reflectance; /* of all faces by area, > 0; 1 where none reflects */
     double irradiance;  /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;   /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance;  /* the largest Y; 1 where no view asks */

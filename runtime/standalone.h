@@ -32,7 +32,7 @@ static inline void host_open(struct host *host,
     host->occluded = occluded;
     host->area = host->extent = host->exitance = host->reflectance = host->irradiance =
         host->radiosity = 0;
-    host->importance = host->impact = 1;
+    host->importance = host->impact = host->mean_reflectance = 1;
     host->rank = 0;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;

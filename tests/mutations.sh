@@ -22,6 +22,8 @@ leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#def
 quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
 dim faces at each look | runtime/engine/measured_error.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
 the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high, m->alone.noise.high)/e->l1_faces.value/ | solver/check_asked
+light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power
+groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->reflectance/i < 0 \&\& e->reflectance/ | runtime/check_power
 leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
 shafts of empty rooms | runtime/visibility/rays.c | s/return free_space_is_all(&rays->free)$/return 0/ | runtime/check_bends
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve

@@ -27,6 +27,8 @@ void oracle_inputs_guess(const struct problem *p, struct hierarchy *h)
     for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
         struct element *e = &h->elements[i];
         double sum = 0;
+        if (i > 0 && e->reflectance > h->elements[e->parent].reflectance)
+            h->elements[e->parent].reflectance = e->reflectance;
         for (uint32_t k = 0; k < p->bands && e->vertices; k++) {
             size_t at = (size_t)e->face * p->bands + k;
             e->radiosity =

@@ -28,7 +28,8 @@ static inline int oracle_inputs_follow(double *seen, double now, double within, 
 }
 
 /* Before the first solve the oracles see what the light is likely to be: E + rho H with the
- * scene's mean irradiance. */
+ * scene's mean irradiance. Groups get the reflectance of their whitest face: an error over a group
+ * is no smaller where most of it is black. */
 void oracle_inputs_guess(const struct problem *p, struct hierarchy *h);
 
 #endif

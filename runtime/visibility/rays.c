@@ -229,6 +229,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.extent = size;
     rays->host.exitance = brightest;
     rays->host.reflectance = whitest;
+    rays->host.mean_reflectance = reflected > 0 ? reflected / area : 1;
     rays->host.importance = 1;
     rays->host.impact = 1;
     rays->host.faces = h->face_count;

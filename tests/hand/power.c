@@ -63,10 +63,13 @@ static enum decision hand_over(const struct pair *p, struct discussion *d, int d
     return (enum decision)decision;
 }
 
-/* A share of all surfaces' light, as irradiance on this receiver over the mean. */
+/* A share of all light, half of it counted as it falls and half as it is reflected, as irradiance
+ * on this receiver over the mean. */
 static double here(const struct pair *p, double share)
 {
-    return share * p->host->area / p->r->area;
+    return share
+           / (0.5 * p->r->area * (1 + p->r->reflectance / p->host->mean_reflectance)
+              / p->host->area);
 }
 
 /* The standard deviation of V. */

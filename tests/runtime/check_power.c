@@ -697,6 +697,71 @@ START_TEST(test_bulb)
 }
 END_TEST
 
+/* A wall across x with a window, 2 x 1.4 m, in it, `wide` m beyond y 0 to 4 and z 0 to 3; its front
+ * towards less x, or away. */
+static void windowed_wall(struct scene *s, uint32_t material, double x, double wide, int away)
+{
+    const double y[4] = {-wide, 1, 3, 4 + wide}, z[4] = {-wide, 0.9, 2.3, 3 + wide};
+    for (int i = 0; i < 9; i++) {
+        const double at[2] = {y[i % 3], z[i / 3]}, a = y[i % 3 + 1] - at[0],
+                     b = z[i / 3 + 1] - at[1];
+        if (i != 4)
+            made_quad(s, material, x, at[0], at[1], 0, away * a, (1 - away) * b, 0, (1 - away) * a,
+                      away * b);
+    }
+}
+
+/* A room with walls of .2 m and a window, in the middle of a black cube of sky, 60 m. Nearly all
+ * light falls on the sky. The walls have a whole sky before them from outside, and what comes in is
+ * what the sky sends through the window; at rho = .02 next to nothing goes out again. */
+START_TEST(test_window)
+{
+    enum { TILES = 5, SKY = 6 * TILES * TILES };
+    const uint32_t m[6] = {1, 1, 1, 1, 1, 1};
+    const double to[3] = {27, 28, 28}, outside[3] = {-0.2, -0.2, -0.2},
+                 along[3][3] = {{0, 4.4, 0}, {0, 0, 3.4}, {5.4, 0, 0}};
+    struct scene scene;
+    struct solve s;
+    double known = 0, comes_in = 0, wrong = 0;
+    made_open(&scene);
+    made_material(&scene, 0, 1);
+    made_material(&scene, 0.02, 0);
+    for (int i = 0; i < SKY; i++)
+        made_tile(&scene, 0, 0, i / (TILES * TILES), i % (TILES * TILES), TILES, 1);
+    made_scale(&scene, 60);
+    made_room(&scene, m, 5, 4, 3);
+    scene.face_count = --scene.input_count; /* the wall with the window comes by itself */
+    windowed_wall(&scene, 1, 5, 0, 0);
+    made_quad(&scene, 1, 5, 1, 0.9, 0.2, 0, 0, 0, 2, 0);
+    made_quad(&scene, 1, 5, 1, 2.3, 0, 2, 0, 0.2, 0, 0);
+    made_quad(&scene, 1, 5, 1, 0.9, 0, 0, 1.4, 0.2, 0, 0);
+    made_quad(&scene, 1, 5, 3, 0.9, 0.2, 0, 0, 0, 0, 1.4);
+    const uint32_t inside = scene.face_count;
+    made_box(&scene, 1, outside, along, 1);
+    windowed_wall(&scene, 1, 5.2, 0.2, 1);
+    for (uint32_t i = SKY; i < scene.face_count; i++)
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < 3; k++)
+                scene.faces[i].vertex[j][k] += to[k];
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick_linear(2));
+    for (uint32_t i = SKY; i < scene.face_count; i++) {
+        const uint32_t e = s.hierarchy.face_element[i];
+        const double area = s.hierarchy.elements[e].area,
+                     falls = area * s.state.radiosity[e] / 0.02;
+        known += i < inside ? 0 : area;
+        comes_in += i < inside ? 0.98 * falls : 0;
+        wrong += i < inside ? 0 : fabs(falls - area);
+    }
+    wrong += fabs(comes_in - 2 * 1.4);
+    known += 2 * 1.4;
+    printf("by a window: %.3f comes in of 2.8, %.3g of all light is wrong, %zu links\n", comes_in,
+           wrong / known, s.refinement.link_count);
+    ck_assert_double_le(wrong / known, 0.01);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Finds at once the lists that tools leave for when pairs below want them. */
 static atomic_long found_at_once;
 static enum decision refine_eagerly(const void *state, struct discussion *d)
@@ -755,6 +820,7 @@ int main(void)
     tcase_add_test(c, test_empty);
     tcase_add_test(c, test_panels);
     tcase_add_test(c, test_bulb);
+    tcase_add_test(c, test_window);
     tcase_add_test(c, test_under_ceiling);
     tcase_add_test(c, test_lists_wanted);
     suite_add_tcase(suite, c);

@@ -27,6 +27,7 @@ static inline void two_open(struct two *t)
     ck_assert_int_eq(hierarchy_build(&t->h, t->scene.faces, t->scene.face_count), 0);
     memset(&t->host, 0, sizeof t->host);
     t->host.area = 1;
+    t->host.mean_reflectance = 1;
     two_find(t);
 }
 
