@@ -738,7 +738,7 @@ struct RadMeasureOptions {
 #define RAD_MEASURE_SURFACES 250000u
 #define RAD_MEASURE_POLYGON 16u
 
-/* As many as there can be: each has more than a hundredth of the area. */
+/* As many as there can be: each has more than a hundredth of what reflects. */
 enum { RAD_UNSURE_NAMED = 100 };
 /* Errors are those of the light that is reflected, B - E: to E nothing can be wrong. */
 struct RadErrorReport {
@@ -752,9 +752,9 @@ struct RadErrorReport {
      * in what is mended with them */
     struct RadMeasure noise;
     double reflected; /* light reflected, as counted, all bands (W) */
-    /* of polygons above a hundredth of the area, the one that is most surely wrong, and by which
-     * share of what it reflects, as measured, and at the least; RadSceneReport.polygons: none is,
-     * surely. The share is the largest of many, and so rather too large; its sign is sure. */
+    /* of polygons above a hundredth of what reflects, the one that is most surely wrong, and by
+     * which share of what it reflects, as measured, and at the least; RadSceneReport.polygons: none
+     * is, surely. The share is the largest of many, and so rather too large; its sign is sure. */
     uint32_t worst;
     double worst_share, worst_sure;
     /* light that ends on black backs, as counted by particles (by paths: 0), a share of what is
@@ -762,9 +762,11 @@ struct RadErrorReport {
      * RadSceneReport.polygons: none. Much of it where faces are turned the wrong way. */
     double backs, back_share;
     uint32_t back;
-    /* of radCorrect alone: polygons above a hundredth of the area that reflect, and how many of
-     * them are so dim that, mended, their light is not known to 5 % (two standard errors): those */
-    uint32_t large, unsure, unsure_named[RAD_UNSURE_NAMED];
+    /* of radCorrect alone: polygons that reflect and have above a hundredth of the area of all that
+     * do, and groups of smaller ones that have, as the tiles of a wall (`gathered`); and how many
+     * of both are so dim that, mended, their light is not known to 5 % (two standard errors):
+     * those, groups by a polygon of them */
+    uint32_t large, gathered, unsure, unsure_named[RAD_UNSURE_NAMED];
     uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
     /* 1: `particles` are paths from polygons: where these tell polygons at a far lower price, as
      * under a sky, they mend and measure (engine/path_mending.c) */

@@ -34,6 +34,7 @@ static struct RadErrorReport report_of(const struct measured_error *m)
                                .back = m->backs.most,
                                .back_share = m->backs.most_share,
                                .large = m->dim.large,
+                               .gathered = m->gathered,
                                .unsure = m->dim.unsure,
                                .rays = m->rays,
                                .particles = m->particles,

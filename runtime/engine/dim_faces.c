@@ -36,8 +36,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/dim_faces.h"
+#include "engine/dim_parts.h"
 #include "engine/dim_split.h"
 #include "engine/own_quarters.h"
+#include "engine/polygon_rows.h"
 #include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 
@@ -49,9 +51,9 @@ enum {
 
 /* ---- which polygons */
 
-/* A polygon, and what of it reflects and is not covered by what stands on it (m2). */
+/* A polygon or a part, and what of it reflects and is not covered by what stands on it (m2). */
 struct candidate {
-    uint32_t polygon;
+    uint32_t part;
     double area;
 };
 
@@ -59,14 +61,43 @@ static int by_area(const void *a, const void *b)
 {
     const struct candidate *x = a, *y = b;
     return x->area != y->area ? (x->area < y->area ? 1 : -1)
-                              : (x->polygon > y->polygon) - (x->polygon < y->polygon);
+                              : (x->part > y->part) - (x->part < y->part);
+}
+
+static double open_area(const struct dim_faces *d, uint32_t face)
+{
+    return tracer_reflectance(d->tracer, face) > 0
+        ? tracer_surface(d->tracer, face)->area
+              * d->solve->operator.uncovered[d->tracer->hierarchy->face_element[face]] : 0;
+}
+
+/* What is looked at together: polygons; or, where groups are asked, what small ones are gathered
+ * in. Returns 0, or -1 when out of memory. */
+static int find_parts(struct dim_faces *d)
+{
+    const struct hierarchy *h = d->tracer->hierarchy;
+    d->parts = d->solve->problem.scene->input_count;
+    d->large = DIM_LARGE * reflecting_area(&d->solve->problem, h);
+    d->part = malloc(((size_t)h->face_count + 1) * sizeof *d->part);
+    double *area = calloc((size_t)d->parts + 1, sizeof *area);
+    int failed = !d->part || !area;
+    for (uint32_t i = 0; i < h->face_count && !failed; i++) {
+        d->part[i] = h->faces[i].input;
+        area[d->part[i]] += open_area(d, i);
+    }
+    if (!failed && d->size == DIM_GROUPS)
+        failed = dim_parts_find(d->tracer, area, d->large, d->part, &d->parts) < 0;
+    free(area);
+    return failed ? -1 : 0;
 }
 
 /* Is it one to look at? */
 static int is_asked(const struct dim_faces *d, const struct candidate *c)
 {
-    const int large = c->area > DIM_LARGE * d->tracer->hierarchy->elements[0].area;
-    return c->area > 0 && large == (d->size == DIM_LARGE_ONES);
+    const enum dim_size size = !(c->area > d->large)                            ? DIM_SMALL_ONES
+                               : c->part < d->solve->problem.scene->input_count ? DIM_LARGE_ONES
+                                                                                : DIM_GROUPS;
+    return c->area > 0 && size == d->size;
 }
 
 /* Those to look at, no more than `most`, the largest ones. Returns 0, or -1 when out of memory. */
@@ -74,46 +105,43 @@ static int list_polygons(struct dim_faces *d, uint32_t most)
 {
     const struct tracer *t = d->tracer;
     const struct hierarchy *h = t->hierarchy;
-    uint32_t polygons = d->solve->problem.scene->input_count, asked = 0;
-    struct candidate *all = calloc((size_t)polygons + 1, sizeof *all);
-    d->of = malloc(((size_t)polygons + 1) * sizeof *d->of);
+    uint32_t asked = 0;
+    struct candidate *all = calloc((size_t)d->parts + 1, sizeof *all);
+    d->of = malloc(((size_t)d->parts + 1) * sizeof *d->of);
     d->face = malloc(((size_t)h->face_count + 1) * sizeof *d->face);
     d->until = malloc(((size_t)h->face_count + 1) * sizeof *d->until);
     int failed = !all || !d->of || !d->face || !d->until;
-    for (uint32_t p = 0; p < polygons && !failed; p++) {
-        all[p].polygon = p;
+    for (uint32_t p = 0; p < d->parts && !failed; p++) {
+        all[p].part = p;
         d->of[p] = NOT_DIM;
     }
-    for (uint32_t i = 0; i < h->face_count && !failed; i++) {
-        struct candidate *c = &all[h->faces[i].input];
-        if (tracer_reflectance(t, i) > 0)
-            c->area +=
-                tracer_surface(t, i)->area * d->solve->operator.uncovered[h->face_element[i]];
-    }
-    for (uint32_t p = 0; p < polygons && !failed; p++)
+    for (uint32_t i = 0; i < h->face_count && !failed; i++)
+        all[d->part[i]].area += open_area(d, i);
+    for (uint32_t p = 0; p < d->parts && !failed; p++)
         if (is_asked(d, &all[p]))
             all[asked++] = all[p];
     if (!failed && asked > most)
         qsort(all, asked, sizeof *all, by_area);
     for (uint32_t i = 0; i < asked && i < most; i++)
-        d->of[all[i].polygon] = 0;
-    for (uint32_t p = 0; p < polygons && !failed; p++)
-        if (d->of[p] != NOT_DIM)
+        d->of[all[i].part] = 0;
+    for (uint32_t p = 0; p < d->parts && !failed; p++)
+        if (d->of[p] != NOT_DIM) {
             d->of[p] = d->count++;
+        }
     d->polygon = failed ? NULL : calloc((size_t)d->count + 1, sizeof *d->polygon);
     free(all);
     return d->polygon ? 0 : -1;
 }
 
-/* The faces of each, one polygon's beside each other. */
+/* The faces of each, beside each other. */
 static void list_faces(struct dim_faces *d)
 {
     const struct tracer *t = d->tracer;
     const struct hierarchy *h = t->hierarchy;
     uint32_t next = 0;
     for (uint32_t i = 0; i < h->face_count; i++)
-        if (tracer_reflectance(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM)
-            d->polygon[d->of[h->faces[i].input]].to++;
+        if (tracer_reflectance(t, i) > 0 && d->of[d->part[i]] != NOT_DIM)
+            d->polygon[d->of[d->part[i]]].to++;
     for (uint32_t j = 0; j < d->count; j++) {
         struct dim_polygon *p = &d->polygon[j];
         p->from = next;
@@ -121,8 +149,8 @@ static void list_faces(struct dim_faces *d)
         p->to = p->from;
     }
     for (uint32_t i = 0; i < h->face_count; i++)
-        if (tracer_reflectance(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM) {
-            struct dim_polygon *p = &d->polygon[d->of[h->faces[i].input]];
+        if (tracer_reflectance(t, i) > 0 && d->of[d->part[i]] != NOT_DIM) {
+            struct dim_polygon *p = &d->polygon[d->of[d->part[i]]];
             p->area += tracer_surface(t, i)->area;
             d->until[p->to] = p->area;
             d->face[p->to++] = i;
@@ -166,10 +194,10 @@ static double *count_polygons(const struct dim_faces *d, const struct tally *tal
 /* Those that are dim; the others are forgotten. Returns 0, or -1 when out of memory. */
 static int keep_dim(struct dim_faces *d, const struct tally *tally)
 {
-    uint32_t kept = 0, polygons = d->solve->problem.scene->input_count;
+    uint32_t kept = 0;
     double *sum = count_polygons(d, tally);
     const int failed = !sum;
-    for (uint32_t p = 0; p < polygons && sum; p++) {
+    for (uint32_t p = 0; p < d->parts && sum; p++) {
         if (d->of[p] == NOT_DIM)
             continue;
         struct dim_polygon at = d->polygon[d->of[p]]; /* places rise with p */
@@ -271,7 +299,7 @@ static void plan(struct dim_faces *d, double rays)
         d->polygon[j].planned = 0;
         d->polygon[j].wanted = d->polygon[j].paths;
     }
-    if (d->size == DIM_LARGE_ONES)
+    if (d->size != DIM_SMALL_ONES)
         rays = plan_cheap(d, rays);
     for (uint32_t j = 0; j < d->count; j++)
         sure &= d->polygon[j].planned;
@@ -305,7 +333,6 @@ static int trace_paths(struct dim_faces *d, double budget)
 
 /* ---- those that are not sure by paths */
 
-/* Polygons are listed by number. */
 static void count_unsure(const struct dim_faces *d, struct dim_count *count)
 {
     const struct face *faces = d->tracer->hierarchy->faces;
@@ -330,7 +357,7 @@ static int all_sure(const struct dim_faces *d)
 /* Which dim polygon the face is of, or NULL. */
 static const struct dim_polygon *polygon_of(const struct dim_faces *d, uint32_t face)
 {
-    uint32_t of = d->of[d->tracer->hierarchy->faces[face].input];
+    uint32_t of = d->of[d->part[face]];
     return of != NOT_DIM && tracer_reflectance(d->tracer, face) > 0 ? &d->polygon[of] : NULL;
 }
 
@@ -438,6 +465,7 @@ static void change(const struct dim_faces *d, double *irradiance)
 
 static void close_all(struct dim_faces *d)
 {
+    free(d->part);
     free(d->of);
     free(d->polygon);
     free(d->face);
@@ -451,12 +479,12 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
 {
     /* so many that each is believed, at the least: dim_belief.c */
     const uint64_t most =
-        size == DIM_LARGE_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
+        size != DIM_SMALL_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
     struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
     *count = (struct dim_count){0};
     if (!(t->lights.power > 0) || tally->particles == 0)
         return 0;
-    int failed = ranks_any(t->ranks, list_polygons(&d, (uint32_t)most) < 0);
+    int failed = ranks_any(t->ranks, find_parts(&d) < 0 || list_polygons(&d, (uint32_t)most) < 0);
     if (!failed) {
         list_faces(&d);
         count->large = d.count;
@@ -479,4 +507,20 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     int changed = failed ? -1 : (int)d.count;
     close_all(&d);
     return changed;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+void dim_count_add(struct dim_count *to, const struct dim_count *c)
+{
+    for (uint32_t i = 0; i < c->unsure && to->unsure + i < RAD_UNSURE_NAMED; i++)
+        to->named[to->unsure + i] = c->named[i];
+    to->large += c->large;
+    to->unsure += c->unsure;
+    const size_t named = to->unsure < RAD_UNSURE_NAMED ? to->unsure : RAD_UNSURE_NAMED;
+    qsort(to->named, named, sizeof *to->named, by_number);
 }

@@ -10,8 +10,9 @@
 #include "particles/watch.h"
 #include "radiosity.h"
 
-/* Polygons of the size that was asked for, which reflect; and how many of them have a standard
- * error above DIM_GOAL of their light, after all, with the first of these by number. */
+/* Polygons or groups of the size that was asked for, which reflect; and how many of them have a
+ * standard error above DIM_GOAL of their light, after all: these, by number, groups by their first
+ * face's polygon. */
 struct dim_count {
     uint32_t large, unsure, named[RAD_UNSURE_NAMED];
 };
@@ -27,5 +28,8 @@ struct dim_count {
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                    enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count);
+
+/* Take those of c, other polygons than *to has, into *to. */
+void dim_count_add(struct dim_count *to, const struct dim_count *c);
 
 #endif

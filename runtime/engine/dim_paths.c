@@ -41,7 +41,7 @@ static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], st
             return;
         *sighted += met_before == 0;
         face = (uint32_t)met;
-        if (met_before > 0 && d->of[t->hierarchy->faces[face].input] == NOT_DIM) {
+        if (met_before > 0 && d->of[d->part[face]] == NOT_DIM) {
             const struct leaf_light leaf = quarter_light_at(&d->light, face, at);
             sub3(away, at, from);
             if (dot3(away, away) > leaf.area && leaf.irradiance >= d->believed) {

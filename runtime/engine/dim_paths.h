@@ -37,8 +37,9 @@ static inline int dim_is_blind(const struct dim_polygon *p)
     return p->paths >= DIM_BLIND && p->sighted == 0 && !(p->all > 0);
 }
 
-/* Which polygons: those above DIM_LARGE of the area, or the others. */
-enum dim_size { DIM_LARGE_ONES, DIM_SMALL_ONES };
+/* Which polygons: those above DIM_LARGE of the area of what reflects; others together, in groups
+ * that are above it (dim_parts.h); or others one by one. */
+enum dim_size { DIM_LARGE_ONES, DIM_GROUPS, DIM_SMALL_ONES };
 
 #define NOT_DIM UINT32_MAX
 struct dim_faces {
@@ -46,9 +47,11 @@ struct dim_faces {
     const struct solve *solve;
     const struct tracer *tracer;
     struct quarter_light light; /* B~ */
-    uint32_t *of;               /* [polygons of the scene]: place in `polygon`; or NOT_DIM */
+    uint32_t *part;             /* [faces]: the polygon it is of, or what it is gathered in */
+    uint32_t parts, *of;        /* [parts]: place in `polygon`; or NOT_DIM */
     struct dim_polygon *polygon;
     uint32_t count;
+    double large;    /* as small as large ones are (m2) */
     uint32_t *face;  /* [faces]: by polygon */
     double *until;   /* [faces]: running sums of their areas in the polygon (m2) */
     double believed; /* where less falls B~ is not asked: irradiance, all bands (W/m2) */

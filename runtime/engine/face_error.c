@@ -522,7 +522,8 @@ static void show_all(struct face_error *f, const struct counted *c)
     ranks_add(ranks, RANKS_PARTICLES, &f->worst_share, 1);
 }
 
-/* Errors per polygon, and the worst. areas: of all sides (m2), [polygons]; all: of the scene. */
+/* Errors per polygon, and the worst. areas: of all sides (m2), [polygons]; all: of what reflects.
+ */
 static void show_polygons(struct face_error *f, const struct counted *c, const double *areas,
                           double all)
 {
@@ -615,7 +616,7 @@ int face_noise_find(const struct problem *p, const struct hierarchy *h, const do
     *noise = (struct face_noise){0, 0};
     if (!failed && c->reflected > 0)
         *noise = (struct face_noise){expected_noise(c).value,
-                                     noise_of_large(c, areas, h->elements[0].area)};
+                                     noise_of_large(c, areas, reflecting_area(p, h))};
     counted_close(c);
     free(areas);
     return failed ? -1 : 0;
@@ -651,7 +652,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         f->power = measure_power(c, (double)tally->particles * REPLICATES);
         f->l1 = measure_l1(c);
     }
-    show_polygons(f, c, areas, h->elements[0].area);
+    show_polygons(f, c, areas, reflecting_area(p, h));
     counted_close(c);
     free(areas);
     return 0;

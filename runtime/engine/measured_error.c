@@ -242,11 +242,18 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                               .now = budget,
                               .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {tell, &watched};
-    struct dim_count small;
+    struct dim_count groups, small;
     if (mend_polygons(s, t, tally, DIM_LARGE_ONES, paths, both, &watch, spent, &alone->dim) < 0)
         return -1;
-    const double left = fmin(fmax(DIM_RAYS * mending, DIM_SMALL), both - (double)*spent);
-    return left > 0 ? mend_polygons(s, t, tally, DIM_SMALL_ONES, left, 0, &watch, spent, &small)
+    /* Of groups it is told in any case which are not known. What single faces need is more. */
+    const uint64_t before = *spent;
+    const double left = fmin(fmax(DIM_RAYS * mending, DIM_SMALL), both - (double)before);
+    if (mend_polygons(s, t, tally, DIM_GROUPS, fmax(0.25 * left, 0), 0, &watch, spent, &groups) < 0)
+        return -1;
+    alone->gathered = groups.large;
+    dim_count_add(&alone->dim, &groups);
+    const double rest = left - (double)(*spent - before);
+    return rest > 0 ? mend_polygons(s, t, tally, DIM_SMALL_ONES, rest, 0, &watch, spent, &small)
                     : 0;
 }
 

@@ -19,7 +19,8 @@ struct measured_error {
                                     * for good where leaves were not counted on */
     struct tally tally;
     struct black_backs backs;
-    struct dim_count dim;     /* once mended, by measure_and_mend alone */
+    struct dim_count dim;     /* once mended, by measure_and_mend alone: large ones and groups */
+    uint32_t gathered;        /* of these groups */
     uint64_t rays, particles; /* particles: paths, where by_paths */
     int by_paths;
     double seconds;

@@ -138,3 +138,11 @@ double *polygon_areas(const struct problem *p, const struct hierarchy *h)
         areas[h->faces[i].input] += h->elements[h->face_element[i]].area;
     return areas;
 }
+
+double reflecting_area(const struct problem *p, const struct hierarchy *h)
+{
+    double area = 0;
+    for (uint32_t i = 0; i < h->face_count; i++)
+        area += p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0;
+    return area;
+}

@@ -125,8 +125,10 @@ static void print_unsure(const struct measured *m)
     const struct RadErrorReport *r = &m->alone;
     if (!m->mended || r->unsure == 0)
         return;
-    printf("dim       %u of %u large faces are too dim for their light to be known to 5 %%: face",
-           (unsigned)r->unsure, (unsigned)r->large);
+    printf(
+        "dim       %u of %u large faces%s are too dim for their light to be known to 5 %%: %sface",
+        (unsigned)r->unsure, (unsigned)r->large, r->gathered > 0 ? " and groups of small ones" : "",
+        r->gathered > 0 ? "among them " : "");
     for (uint32_t i = 0; i < r->unsure && i < UNSURE_SHOWN; i++)
         printf("%s %u", i > 0 ? "," : r->unsure > 1 ? "s" : "", (unsigned)r->unsure_named[i]);
     puts(r->unsure > UNSURE_SHOWN ? ", ... (--json has all)" : "");
@@ -245,6 +247,7 @@ json_t *mended_json(const struct measured *m)
         return json_null();
     json_t *all = report_json(&m->alone);
     json_object_set_new(all, "large_faces", json_integer(m->alone.large));
+    json_object_set_new(all, "large_groups", json_integer(m->alone.gathered));
     json_object_set_new(all, "large_faces_unsure", json_integer(m->alone.unsure));
     json_object_set_new(all, "first_unsure", unsure_json(&m->alone));
     return all;

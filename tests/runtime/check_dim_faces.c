@@ -6,6 +6,7 @@
 #include "runtime/make_solve.h"
 #include "engine/dim_belief.h"
 #include "engine/dim_faces.h"
+#include "engine/dim_parts.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/solve_tracer.h"
@@ -15,7 +16,9 @@
 #define RHO 0.3    /* of both */
 #define SPOILT 1.3 /* by what the wall's light is multiplied */
 
-enum { WALL = 6, CUTS = 4 }; /* the face that is spoilt, the first of the dark box */
+/* The face that is spoilt, the first of the dark box; the other five are cut in CUTS x CUTS parts
+ * of 1/192 of the area each, two of which are large together, and four too large. */
+enum { WALL = 6, CUTS = 4, GROUPS = 5 * CUTS * CUTS / 2 };
 
 /* Of a box's walls: one part of n by n. */
 static void add_part(struct scene *s, uint32_t material, const struct face *wall, int n, int part)
@@ -84,8 +87,10 @@ START_TEST(test_found)
     two_furnaces(&s, &scene, DARK, 2);
     spoil_wall(&s);
     mend_all(&s, 1e-4, 450000, &alone);
-    ck_assert_uint_eq(alone.dim.large, WALL + 1); /* parts of the other dark walls are small */
-    ck_assert_uint_eq(alone.dim.unsure, 0);
+    ck_assert_uint_eq(alone.gathered, GROUPS); /* parts of the other dark walls are small */
+    ck_assert_uint_eq(alone.dim.large, WALL + 1 + GROUPS);
+    for (uint32_t i = 0; i < alone.dim.unsure; i++)
+        ck_assert_uint_gt(alone.dim.named[i], WALL);
     const struct hierarchy *h = &s.hierarchy;
     for (uint32_t f = 0; f < WALL; f++)
         ck_assert_double_eq_tol(of_face(&s, f), 1, 0.01);
@@ -268,6 +273,67 @@ START_TEST(test_large_budget)
 }
 END_TEST
 
+/* Groups are of one wall each, and no face that is small is left out. */
+START_TEST(test_groups)
+{
+    struct scene scene;
+    struct solve s;
+    struct tracer tracer;
+    double area[WALL + 1 + 5 * CUTS * CUTS] = {0};
+    uint32_t part[WALL + 1 + 5 * CUTS * CUTS], count = WALL + 1 + 5 * CUTS * CUTS,
+                                               members[GROUPS] = {0};
+    two_furnaces(&s, &scene, DARK, 1);
+    ck_assert_uint_eq(scene.face_count, count);
+    tracer = solve_tracer(&s);
+    ck_assert_int_eq(tracer_open(&tracer), 0);
+    const struct hierarchy *h = &s.hierarchy;
+    for (uint32_t i = 0; i < h->face_count; i++) {
+        part[i] = h->faces[i].input;
+        area[part[i]] += tracer_surface(&tracer, i)->area;
+    }
+    ck_assert_int_eq(dim_parts_find(&tracer, area, 0.01 * 12, part, &count), 0);
+    ck_assert_uint_eq(count, h->face_count + GROUPS);
+    const double *normal[GROUPS];
+    for (uint32_t i = 0; i < h->face_count; i++) {
+        const uint32_t of = part[i] - h->face_count;
+        if (h->faces[i].input <= WALL) {
+            ck_assert_uint_eq(part[i], h->faces[i].input);
+            continue;
+        }
+        ck_assert_uint_lt(of, GROUPS);
+        if (members[of]++ == 0)
+            normal[of] = tracer_surface(&tracer, i)->normal;
+        ck_assert_double_gt(dot3(normal[of], tracer_surface(&tracer, i)->normal), 0.999);
+    }
+    for (int i = 0; i < GROUPS; i++)
+        ck_assert_uint_eq(members[i], 2);
+    tracer_close(&tracer);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* Few rays: of the dark box nothing is known, and so it is said, by wall and by group. */
+START_TEST(test_groups_told)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    two_furnaces(&s, &scene, DARK, 2);
+    s.report.counts.rays = 1000000000; /* so that none is left for what is small */
+    mend_all(&s, 1e-2, 20000, &alone);
+    ck_assert_uint_eq(alone.gathered, GROUPS);
+    ck_assert_uint_ge(alone.dim.unsure, GROUPS / 2);
+    for (uint32_t i = 0; i < alone.dim.unsure; i++) {
+        ck_assert_uint_ge(alone.dim.named[i], WALL);
+        ck_assert(i == 0 || alone.dim.named[i] > alone.dim.named[i - 1]);
+    }
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Small faces where little light is: all of them are three times too bright, and none stays so. */
 START_TEST(test_small)
 {
@@ -339,6 +405,8 @@ int main(void)
     tcase_add_test(tests, test_found);
     tcase_add_test(tests, test_stood_on);
     tcase_add_test(tests, test_unsure);
+    tcase_add_test(tests, test_groups);
+    tcase_add_test(tests, test_groups_told);
     tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
