@@ -32,9 +32,10 @@ static void sum_errors(const struct solve *s, const struct tally *tally, const d
 {
     const struct hierarchy *h = &s->hierarchy;
     const uint32_t bands = s->problem.bands;
+    const double least = FACE_ERROR_LARGE * reflecting_area(&s->problem, h);
     for (uint32_t f = 0; f < h->face_count; f++) {
         const uint32_t e = h->face_element[f];
-        const int large = area[h->faces[f].input] > FACE_ERROR_LARGE * h->elements[0].area;
+        const int large = area[h->faces[f].input] > least;
         for (uint32_t k = 0; k < bands && tally_holds(tally, f); k++) {
             const double reflected = s->problem.reflectance[(size_t)f * bands + k]
                                      * h->elements[e].area * irradiance[(size_t)e * bands + k];

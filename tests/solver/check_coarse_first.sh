@@ -35,6 +35,8 @@ count=$((count + 1))
 [ "$(value links)" = 0 ] || failed "links, though there should be none"
 count=$((count + 1))
 solve boxes.obj --threads 1 && cmp -s faces once || failed "without links, another number of threads, another answer"
+# Coarse links know nothing of the gap between lamps and ceiling; fine ones cost less than particles for all of it.
+scaled "$top/tests/runtime/panels.obj" 1 true
 # A limit that somebody has set is no price, and ends the run.
 for limit in depth=1 links=100 pairs=1000; do
     count=$((count + 1))
