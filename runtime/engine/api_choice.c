@@ -18,10 +18,10 @@
  * above s^2 / (FINER L): particles are the cheaper way, and the coarse links stay. Unless particles
  * would have to do all: where coarse links know next to nothing of places, as of a gap between a
  * cupboard and its wall, finer ones may know nearly all of it. If what they could spare at the most
- * takes longer than they do, which is TRIED times what the coarse ones did, they are made. So nobody
- * waits more than about twice as long as for the better way, whatever e falls with. Finer links are
- * solved for anew: what was given up coarsely is not missed then. All follows from counts, so the
- * choice is the same on any machine, and on any number of them. [Derived here]
+ * takes longer than they do, which is TRIED times what the coarse ones did, they are made. So
+ * nobody waits more than about twice as long as for the better way, whatever e falls with. Finer
+ * links are solved for anew: what was given up coarsely is not missed then. All follows from
+ * counts, so the choice is the same on any machine, and on any number of them. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>

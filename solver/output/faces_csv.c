@@ -1,8 +1,9 @@
 /* faces_csv.c - see faces_csv.h.
  *
  * Every column is a mean over the whole face, so B = E + rho H holds in each row, to rounding;
- * the tree's radiosity is the mean over what no solid stands on, which may be more. Areas are of both
- * sides where a polygon has two, as `reference` has them: area times H (1 - rho) is what is absorbed.
+ * the tree's radiosity is the mean over what no solid stands on, which may be more. Areas are of
+ * both sides where a polygon has two, as `reference` has them: area times H (1 - rho) is what is
+ * absorbed.
  * SPDX-License-Identifier: MIT */
 #include "output/faces_csv.h"
 
