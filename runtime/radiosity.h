@@ -752,6 +752,10 @@ struct RadErrorReport {
      * in what is mended with them */
     struct RadMeasure noise;
     double reflected; /* light reflected, as counted, all bands (W) */
+    /* by band: its share of the light that the solution reflects, and noise.value of it as a share
+     * of the band's own light: a band with few of the watts is known by few particles, or by none
+     * (1), and `noise` does not show it */
+    double band_light[3], band_noise[3];
     /* of polygons above a hundredth of what reflects, the one that is most surely wrong, and by
      * which share of what it reflects, as measured, and at the least; RadSceneReport.polygons: none
      * is, surely. The share is the largest of many, and so rather too large; its sign is sure. */

@@ -40,6 +40,8 @@ static struct RadErrorReport report_of(const struct measured_error *m)
                                .particles = m->particles,
                                .by_paths = (uint32_t)m->by_paths,
                                .seconds = m->seconds};
+    memcpy(r.band_light, m->faces.band_light, sizeof r.band_light);
+    memcpy(r.band_noise, m->faces.band_noise, sizeof r.band_noise);
     memcpy(r.unsure_named, m->dim.named, sizeof r.unsure_named);
     return r;
 }

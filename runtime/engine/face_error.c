@@ -622,6 +622,26 @@ int face_noise_find(const struct problem *p, const struct hierarchy *h, const do
     return failed ? -1 : 0;
 }
 
+/* Where no particle had any of a band, and the solution has, they know none of it. */
+static void show_bands(struct face_error *f, const struct counted *c)
+{
+    double mean[3] = {0}, solved[3] = {0}, noise[3] = {0}, all = 0;
+    for (size_t i = 0; i < c->values; i++) {
+        mean[i % c->bands] += c->mean[i];
+        solved[i % c->bands] += c->solved[i];
+        noise[i % c->bands] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
+    }
+    polygon_rows_sum(&c->rows, mean, 3);
+    polygon_rows_sum(&c->rows, solved, 3);
+    polygon_rows_sum(&c->rows, noise, 3);
+    for (size_t k = 0; k < c->bands; k++)
+        all += solved[k];
+    for (size_t k = 0; k < c->bands && all > 0; k++) {
+        f->band_light[k] = solved[k] / all;
+        f->band_noise[k] = mean[k] > 0 ? noise[k] / mean[k] : solved[k] > 0;
+    }
+}
+
 static int open_lists(struct face_error *f)
 {
     size_t n = (size_t)f->polygons * f->bands + 1;
@@ -653,6 +673,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         f->l1 = measure_l1(c);
     }
     show_polygons(f, c, areas, reflecting_area(p, h));
+    show_bands(f, c);
     counted_close(c);
     free(areas);
     return 0;

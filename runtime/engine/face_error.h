@@ -15,6 +15,10 @@ struct face_error {
     struct RadMeasure power, l1; /* shares of the reflected light */
     struct RadMeasure noise;     /* the L1 error that chance makes of what is counted itself */
     double reflected;            /* light reflected, as counted, all bands (W) */
+    /* by band: its share of the light that the solution reflects, and what chance makes of what is
+     * counted in it, as noise.value, but a share of the band's own light: 1 where none is counted,
+     * 0 where there is none */
+    double band_light[3], band_noise[3];
     /* of polygons above FACE_ERROR_LARGE of the area that light meets: the one that is most
      * surely wrong, and its error as a share of what it reflects, as seen, and the least that it
      * surely is (FACE_ERROR_SURE); polygons: there is none */

@@ -245,10 +245,13 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
     struct dim_count groups, small;
     if (mend_polygons(s, t, tally, DIM_LARGE_ONES, paths, both, &watch, spent, &alone->dim) < 0)
         return -1;
-    /* Of groups it is told in any case which are not known. What single faces need is more. */
+    /* Of groups it is told in any case which are not known. What single faces need is more, and
+     * where few rays were asked for few are spent on them. */
     const uint64_t before = *spent;
     const double left = fmin(fmax(DIM_RAYS * mending, DIM_SMALL), both - (double)before);
-    if (mend_polygons(s, t, tally, DIM_GROUPS, fmax(0.25 * left, 0), 0, &watch, spent, &groups) < 0)
+    if (mend_polygons(s, t, tally, DIM_GROUPS, 0.25 * fmax(fmin(left, mending), 0), 0, &watch,
+                      spent, &groups)
+        < 0)
         return -1;
     alone->gathered = groups.large;
     dim_count_add(&alone->dim, &groups);

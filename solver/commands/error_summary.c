@@ -134,6 +134,29 @@ static void print_unsure(const struct measured *m)
     puts(r->unsure > UNSURE_SHOWN ? ", ... (--json has all)" : "");
 }
 
+/* of a band's own light: as a reader holds every face to, and so much more than of all light */
+static const double BAND_TOLD = 0.05, BAND_WORSE = 4;
+
+static int is_band_unknown(const struct RadErrorReport *r, int band)
+{
+    return r->band_noise[band] > BAND_TOLD && r->band_noise[band] > BAND_WORSE * r->noise.value;
+}
+
+/* Bands that have too few of the particles for their light to be known. */
+static void print_bands(const struct measured *m)
+{
+    for (int k = 0; k < 3 && m->mended; k++) {
+        const double light = 100 * m->alone.band_light[k], noise = 100 * m->alone.band_noise[k];
+        if (!is_band_unknown(&m->alone, k))
+            continue;
+        printf("bands     of band %d, %.2g %% of the reflected light, particles know ", k, light);
+        if (noise < 50)
+            printf("faces to %.2g %% only; the rest is as links say\n", noise);
+        else
+            puts("next to nothing; it is as links say");
+    }
+}
+
 void measured_print(const struct measured *m, uint32_t polygons, int no_links)
 {
     const struct RadErrorReport *e = &m->error;
@@ -165,6 +188,7 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
     else
         printf("; no large face is surely wrong\n");
     print_unsure(m);
+    print_bands(m);
     if (e->backs > 0)
         printf("backs     %.3g %% of the emitted light ends on black backs, %.3g %% of that on the "
                "back of face %u\n",
@@ -209,6 +233,19 @@ static json_t *backs_json(const struct RadErrorReport *r)
                      "share_of_that", r->back_share);
 }
 
+/* What chance leaves of each band. */
+static json_t *bands_json(const struct RadErrorReport *r)
+{
+    json_t *all = json_array();
+    int bands = 3;
+    while (bands > 0 && !(r->band_light[bands - 1] > 0))
+        bands--;
+    for (int k = 0; k < bands; k++)
+        json_array_append_new(
+            all, json_pack("{s:f, s:f}", "light", r->band_light[k], "noise", r->band_noise[k]));
+    return all;
+}
+
 /* The large face that is most surely wrong; null: none is. */
 static json_t *worst_json(const struct RadErrorReport *r, uint32_t polygons)
 {
@@ -246,6 +283,7 @@ json_t *mended_json(const struct measured *m)
     if (!m->mended)
         return json_null();
     json_t *all = report_json(&m->alone);
+    json_object_set_new(all, "bands", bands_json(&m->alone));
     json_object_set_new(all, "large_faces", json_integer(m->alone.large));
     json_object_set_new(all, "large_groups", json_integer(m->alone.gathered));
     json_object_set_new(all, "large_faces_unsure", json_integer(m->alone.unsure));
