@@ -1,9 +1,7 @@
 /* faces_csv.c - see faces_csv.h.
  *
  * Every column is a mean over the whole face, so B = E + rho H holds in each row, to rounding;
- * the tree's radiosity is the mean over what no solid stands on, which may be more. Areas are of
- * both sides where a polygon has two, as `reference` has them: area times H (1 - rho) is what is
- * absorbed.
+ * the tree's radiosity is the mean over what no solid stands on, which may be more.
  * SPDX-License-Identifier: MIT */
 #include "output/faces_csv.h"
 
@@ -50,10 +48,10 @@ static void write_row(FILE *out, const struct solution *s, uint32_t i, const str
 {
     uint32_t material = s->surfaces.polygon_materials[i], bands = s->tree.bands;
     const struct RadMaterial *m = &s->surfaces.materials[material];
-    int dropped = !(t->area > 0), sides = 1 + m->two_sided;
+    int dropped = !(t->area > 0);
     fprintf(out, "%u,", (unsigned)i);
     write_name(out, s->surfaces.material_names[material]);
-    fprintf(out, ",%.12g", sides * s->surfaces.polygon_areas[i]);
+    fprintf(out, ",%.12g", s->surfaces.polygon_areas[i]);
     for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k]);
     for (uint32_t k = 0; k < bands; k++)

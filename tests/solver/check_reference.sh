@@ -28,7 +28,6 @@ face,area,E_0,B_0
 END
 "$radiosity" error exact.csv f.csv --json e.json >out 2>err
 check "error reads it" less "$(value l1_faces e.json)" 0.008
-check "two-sided area of a solution" sh -c "'$radiosity' solve '$scenes/furnace.obj' --two-sided -q --faces s.csv && sed -n 2p s.csv | grep -q '^0,[^,]*,2,'"
 check "two-sided area" sh -c "'$radiosity' reference '$scenes/furnace.obj' --two-sided -q -o t.csv --accuracy 2% && sed -n 2p t.csv | grep -q '^0,2,'"
 
 # ---- three bands, any number of threads, in one go or in two: the same bytes
