@@ -212,12 +212,12 @@ static int keep_dim(struct dim_faces *d, const struct tally *tally)
     return failed ? -1 : 0;
 }
 
-/* The irradiance (all bands, W/m2) that brings DIM_BELIEVED particles to a place as large as large ones.
- * Where paths have mended, and no particles: any. */
+/* The irradiance (all bands, W/m2) that brings DIM_BELIEVED particles to a place as large as large
+ * ones. Where paths have mended, and no particles: any. */
 static double believed(const struct dim_faces *d, const struct tally *tally)
 {
-    double met = d->large / d->tracer->hierarchy->elements[0].area * (double)tally->particles
-                 * REPLICATES;
+    double met =
+        d->large / d->tracer->hierarchy->elements[0].area * (double)tally->particles * REPLICATES;
     return tally->by_paths ? 0 : mended_irradiance(d->solve, 0) * DIM_BELIEVED / met;
 }
 
