@@ -23,7 +23,7 @@ quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL
 dim faces at each look | runtime/engine/measured_error.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
 the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high, m->alone.noise.high)/e->l1_faces.value/ | solver/check_asked
 bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = mean/f->band_noise[k] = 0 * mean/ | solver/check_bands
-parts of two walls | runtime/engine/dim_parts.c | s/f->at.3 + k. = e->normal.k.;/f->at[3 + k] = 0;/ | runtime/check_dim_faces
+parts of two walls | runtime/engine/dim_parts.c | s/p->reach \* e->normal.k - 3.;/0 * e->normal[k - 3];/ | runtime/check_dim_faces
 groups that nobody is told of | runtime/engine/measured_error.c | s/^    dim_count_add(.*$/    (void)groups;/ | runtime/check_dim_faces
 light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power
 groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->reflectance/i < 0 \&\& e->reflectance/ | runtime/check_power

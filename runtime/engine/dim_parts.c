@@ -17,27 +17,38 @@
 
 enum { DIMENSIONS = 6 };
 
-struct small_face {
-    double at[DIMENSIONS], area;
-    uint32_t face;
-};
-
 struct parts {
-    struct small_face *list;
-    double large;
-    uint32_t next, *part;
+    const struct tracer *tracer;
+    double large, reach; /* m2; what a normal is long (m) */
+    uint32_t *list, *part, next;
 };
 
-/* The widest dimension of list[from..to), and the middle of it. Returns how wide it is. */
-static double widest(const struct parts *p, uint32_t from, uint32_t to, int *dimension,
-                     double *middle)
+static double key(const struct parts *p, uint32_t face, int k)
+{
+    const struct element *e = tracer_surface(p->tracer, face);
+    return k < 3 ? e->centre[k] : p->reach * e->normal[k - 3];
+}
+
+static double area_of(const struct parts *p, uint32_t from, uint32_t to)
+{
+    double area = 0;
+    for (uint32_t i = from; i < to; i++)
+        area += tracer_surface(p->tracer, p->list[i])->area;
+    return area;
+}
+
+/* The widest of the first dimensions of list[from..to), and the middle of it. Returns how wide it
+ * is. */
+static double widest(const struct parts *p, uint32_t from, uint32_t to, int dimensions,
+                     int *dimension, double *middle)
 {
     double most = 0;
-    for (int k = 0; k < DIMENSIONS; k++) {
+    for (int k = 0; k < dimensions; k++) {
         double low = INFINITY, high = -INFINITY;
         for (uint32_t i = from; i < to; i++) {
-            low = fmin(low, p->list[i].at[k]);
-            high = fmax(high, p->list[i].at[k]);
+            const double at = key(p, p->list[i], k);
+            low = fmin(low, at);
+            high = fmax(high, at);
         }
         if (high - low > most) {
             most = high - low;
@@ -51,18 +62,17 @@ static double widest(const struct parts *p, uint32_t from, uint32_t to, int *dim
 static void divide(struct parts *p, uint32_t from, uint32_t to)
 {
     for (;;) {
-        double area = 0, middle = 0;
+        const double area = area_of(p, from, to);
+        double middle = 0;
         int k = 0;
-        for (uint32_t i = from; i < to; i++)
-            area += p->list[i].area;
         if (!(area > p->large))
             return;
-        if (!(area > 2 * p->large) || !(widest(p, from, to, &k, &middle) > 0))
+        if (!(area > 2 * p->large) || !(widest(p, from, to, DIMENSIONS, &k, &middle) > 0))
             break;
         uint32_t split = from;
         for (uint32_t i = from; i < to; i++)
-            if (p->list[i].at[k] < middle) {
-                const struct small_face below = p->list[i];
+            if (key(p, p->list[i], k) < middle) {
+                const uint32_t below = p->list[i];
                 p->list[i] = p->list[split];
                 p->list[split++] = below;
             }
@@ -72,48 +82,28 @@ static void divide(struct parts *p, uint32_t from, uint32_t to)
         from = split;
     }
     for (uint32_t i = from; i < to; i++)
-        p->part[p->list[i].face] = p->next;
+        p->part[p->list[i]] = p->next;
     p->next++;
-}
-
-/* Normals as long as half the longest side of the box of all centres. */
-static void scale_normals(struct small_face *list, uint32_t count)
-{
-    double size = 0;
-    for (int k = 0; k < 3; k++) {
-        double low = INFINITY, high = -INFINITY;
-        for (uint32_t i = 0; i < count; i++) {
-            low = fmin(low, list[i].at[k]);
-            high = fmax(high, list[i].at[k]);
-        }
-        size = fmax(size, high - low);
-    }
-    for (uint32_t i = 0; i < count; i++)
-        for (int k = 3; k < DIMENSIONS; k++)
-            list[i].at[k] *= 0.5 * size;
 }
 
 int dim_parts_find(const struct tracer *t, const double *area, double large, uint32_t *part,
                    uint32_t *count)
 {
-    const struct hierarchy *h = t->hierarchy;
-    struct parts p = {malloc(((size_t)h->face_count + 1) * sizeof *p.list), large, *count, part};
+    const uint32_t faces = t->hierarchy->face_count;
+    struct parts p = {.tracer = t,
+                      .large = large,
+                      .list = malloc(((size_t)faces + 1) * sizeof *p.list),
+                      .part = part,
+                      .next = *count};
     uint32_t small = 0;
+    double middle;
+    int dimension;
     if (!p.list)
         return -1;
-    for (uint32_t i = 0; i < h->face_count; i++) {
-        const struct element *e = tracer_surface(t, i);
-        if (!(area[part[i]] > 0) || area[part[i]] > large || !(tracer_reflectance(t, i) > 0))
-            continue;
-        struct small_face *f = &p.list[small++];
-        for (int k = 0; k < 3; k++) {
-            f->at[k] = e->centre[k];
-            f->at[3 + k] = e->normal[k];
-        }
-        f->area = e->area;
-        f->face = i;
-    }
-    scale_normals(p.list, small);
+    for (uint32_t i = 0; i < faces; i++)
+        if (area[part[i]] > 0 && area[part[i]] <= large && tracer_reflectance(t, i) > 0)
+            p.list[small++] = i;
+    p.reach = 0.5 * widest(&p, 0, small, 3, &dimension, &middle);
     divide(&p, 0, small);
     *count = p.next;
     free(p.list);
