@@ -66,9 +66,9 @@ static int by_area(const void *a, const void *b)
 
 static double open_area(const struct dim_faces *d, uint32_t face)
 {
-    return tracer_reflectance(d->tracer, face) > 0
-        ? tracer_surface(d->tracer, face)->area
-              * d->solve->operator.uncovered[d->tracer->hierarchy->face_element[face]] : 0;
+    const struct tracer *t = d->tracer;
+    const double uncovered = d->solve->operator.uncovered[t->hierarchy->face_element[face]];
+    return tracer_reflectance(t, face) > 0 ? uncovered * tracer_surface(t, face)->area : 0;
 }
 
 /* What is looked at together: polygons; or, where groups are asked, what small ones are gathered
