@@ -12,7 +12,8 @@
  * root of the sum of squares, no more: where that is what the tolerance leaves for the largest it
  * is enough, and where it is as much as if all r_i were alike the residual is made and held to the
  * bound, which costs a sweep; and again when it has got less by as much as the bound was above the
- * tolerance. Sweeps then say whether the bound holds, and do what is left.
+ * tolerance. Sweeps then say whether the bound holds, and do what is left: also of a method that
+ * has taken twice as many steps as they would at the most, or has only made it worse.
  *
  * Invariant: rows are summed over links in the order that refinement_sort gives, and products of
  * vectors exactly (petsc_sums.h), so that how many ranks there are does not show.
@@ -63,6 +64,8 @@ struct equation {
     void *by_norm; /* its own test */
     Vec found, source, product;
     double sum[3], until; /* sum A k; below this norm the residual is made */
+    double begun;         /* norm before the first step; INFINITY: not asked */
+    double rate;          /* what a sweep leaves of the largest residual at the most */
 };
 
 /* ---- 1 - K */
@@ -286,6 +289,7 @@ static double allowed(struct equation *q)
         all += q->sum[k] = sums[SUM + k];
     const double left = all > 0 ? q->tolerance * sums[POWER] / all * (1 - most) : 0;
     q->until = left * sqrt(sums[LEAVES] * x->bands);
+    q->rate = most;
     return left > 0 ? left : 0;
 }
 
@@ -340,7 +344,14 @@ static PetscErrorCode test(KSP method, PetscInt step, PetscReal norm, KSPConverg
 {
     struct equation *q = equation;
     double left = 0;
+    PetscReal least;
+    PetscCall(KSPGetTolerances(method, NULL, &least, NULL, NULL));
+    if (step == 0)
+        q->begun = norm;
     PetscCall(KSPConvergedDefault(method, step, norm, reason, q->by_norm));
+    /* after so many sweeps the largest residual is below `least`: each leaves `rate` of it */
+    if (!*reason && step > 2 * log(least / q->begun) / log(q->rate))
+        *reason = KSP_DIVERGED_ITS;
     if (*reason || step == 0 || norm > q->until)
         return 0;
     PetscCall(measure(q, &left));
@@ -405,7 +416,9 @@ static PetscErrorCode keep(struct equation *q)
     const double *found;
     KSPConvergedReason reason;
     PetscCall(KSPGetConvergedReason(q->method, &reason));
-    if (reason < 0 && reason != KSP_DIVERGED_ITS)
+    PetscReal norm;
+    PetscCall(KSPGetResidualNorm(q->method, &norm));
+    if ((reason < 0 && reason != KSP_DIVERGED_ITS) || !(norm <= q->begun))
         return 0; /* it has gone astray: sweeps go on from where it began */
     PetscCall(VecGetArrayRead(q->found, &found));
     PetscCall(spread(q, found));
@@ -440,6 +453,7 @@ int petsc_solution_make(const struct light_operator *op, struct transport *x)
 {
     struct equation q = {.op = op,
                          .x = x,
+                         .begun = INFINITY,
                          .most = op->problem->options.iterations - 1,
                          .tolerance = x->tolerance > 0 ? x->tolerance : SOLVE_TOLERANCE};
     struct ranks *ranks = op->shares.ranks;

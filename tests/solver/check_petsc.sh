@@ -114,6 +114,7 @@ for how in "-ksp_type bcgs" "-ksp_type richardson" "-ksp_type tfqmr" "-ksp_type 
     by "$how" --tolerance 1e-8 --basis constant --json petsc.json --faces petsc.csv
     check "$how: status $?, $(head -n 3 said)" [ "$(value petsc.json converged)" = true ]
     check "$how: other light" light sweeps.csv petsc.csv 2e-7
+    check "$how: $(value petsc.json iterations) sweeps" [ "$(value petsc.json iterations)" -lt 1000 ]
     rm -f petsc.*
 done
 by "" --iterations 2 --tolerance 1e-8
