@@ -11,13 +11,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "output/graph_drawing.h"
+#include "util/end_with_parent.h"
 #include "util/report.h"
 
 enum { NOT_RUN = 127 }; /* as a shell says it */
@@ -82,11 +80,8 @@ static int run_dot(FILE *from, FILE *to)
     const pid_t parent = getpid();
     pid_t child = fork();
     if (child == 0) {
-#ifdef __linux__
-        prctl(PR_SET_PDEATHSIG, SIGTERM); /* whoever is killed wants no drawing any more */
-#endif
-        if (getppid() == parent && /* it may have been killed before the system was told so */
-            dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
+        end_with_parent(parent, SIGTERM);
+        if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
             execlp("dot", "dot", "-Tjson0", (char *)NULL);
         _exit(NOT_RUN);
     }

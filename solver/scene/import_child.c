@@ -20,12 +20,10 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 #include "util/beside.h"
 #include "util/clock.h"
+#include "util/end_with_parent.h"
 #include "util/ends_with.h"
 #include "util/report.h"
 
@@ -130,16 +128,6 @@ static void set_limits(double seconds, double memory)
     signal(SIGHUP, SIG_DFL);
     signal(SIGPIPE, SIG_DFL);
     signal(SIGXCPU, SIG_DFL);
-}
-
-/* Nobody outlives the parent, which may be gone before the system is told so. */
-static void end_with(pid_t parent)
-{
-#ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
-    if (getppid() != parent)
-        _exit(1);
 }
 
 static void send(FILE *to, const void *array, size_t size, size_t count)
@@ -384,7 +372,7 @@ int import_in_child(struct scene_file *file, const char *path, import_reader *re
     const pid_t parent = getpid();
     c.process = fork();
     if (c.process == 0) {
-        end_with(parent);
+        end_with_parent(parent, SIGKILL);
         close(ends[0]);
         run(path, read, ends[1], c.seconds, memory);
     }
