@@ -8,39 +8,17 @@
 # A room of 1 m with a red lamp and a blue one below its ceiling; BLUE: what the blue one emits (W/m2), the red one 1000
 room() {
     printf 'newmtl wall\nKd .5 .5 .5\nnewmtl red\nKd 0 0 0\nKe 1000 0 0\nnewmtl blue\nKd 0 0 0\nKe 0 0 %s\n' "$1" >room.mtl
-    cat >room.obj <<END
-mtllib room.mtl
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-v 0 0 1
-v 1 0 1
-v 1 1 1
-v 0 1 1
-v .2 .4 .9
-v .2 .6 .9
-v .4 .6 .9
-v .4 .4 .9
-v .6 .4 .9
-v .6 .6 .9
-v .8 .6 .9
-v .8 .4 .9
-usemtl wall
-f 1 2 3 4
-f 8 7 6 5
-f 5 6 2 1
-f 6 7 3 2
-f 7 8 4 3
-f 8 5 1 4
-usemtl red
-f 9 10 11 12
-usemtl blue
-f 13 14 15 16
-END
     "$radiosity" solve room.obj --json json >out 2>err || failed "solve with blue $1: $(tail -n 1 err)"
 }
-light() { tr -d '\n ' <json | sed 's/.*"correction"//; s/.*"bands":\[\([^]]*\)\].*/\1/' | grep -o '"light":[^,}]*' | cut -d : -f 2; }
+cat >room.awk <<'END'
+function lamp(material, x) {
+    print "usemtl", material
+    print "f", corner(x, .4, .9), corner(x, .6, .9), corner(x + .2, .6, .9), corner(x + .2, .4, .9)
+}
+BEGIN { print "mtllib room.mtl\nusemtl wall"; box(0, 0, 0, 1, 1, 1, 1); lamp("red", .2); lamp("blue", .6) }
+END
+awk -f "$top/tests/solver/box.awk" -f room.awk >room.obj
+light() { awk -f "$top/tests/tables/json.awk" json | awk '$1 ~ /^correction\.bands.*light/ { print $2 }'; }
 
 count=$((count + 4))
 room 1000
