@@ -11,9 +11,9 @@ trap 'rm -rf "$work"' EXIT
 # name | file | what sed does | suites
 table() {
     sed '/^$/d' <<'END'
-products of near groups | examples/oracles/power.dag | s/\(product *: ratio = \)5e-8/\12.5e-5/ | runtime/check_power
+products of near groups | examples/oracles/power.dag | s/\(product *: ratio = \)5e-8/\12.5e-5/ | runtime/check_power_scenes
 bends are never known | runtime/engine/solve.c | s/\&\& !rays_in_the_way(p->rays);/\&\& 0;/ | runtime/check_bends
-bends are always balanced | runtime/tools/linear_gap.h | s/together > limit \&\&/0 \&\&/ | runtime/check_bends runtime/check_power
+bends are always balanced | runtime/tools/linear_gap.h | s/together > limit \&\&/0 \&\&/ | runtime/check_bends runtime/check_power runtime/check_power_scenes
 bends of the last link | runtime/engine/bends.c | s/at->point.i..k. += factor/at->point[i][k] = factor/ | runtime/check_bends
 bends at centre and corners alone | runtime/engine/bends.c | s/return sqrt(square . INSIDE);/return 0 * square;/ | runtime/check_bends
 bends that hand does not read | tests/hand/power.c | s/{FACT_RECEIVER_BEND};/{FACT_RECEIVER_AREA};/ | runtime/check_bends
@@ -25,8 +25,8 @@ the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high
 bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = mean/f->band_noise[k] = 0 * mean/ | solver/check_bands
 parts of two walls | runtime/engine/dim_parts.c | s/p->reach \* e->normal.k - 3.;/0 * e->normal[k - 3];/ | runtime/check_dim_faces
 groups that nobody is told of | runtime/engine/measured_error.c | s/^    dim_count_add(.*$/    (void)groups;/ | runtime/check_dim_faces
-light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power
-groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->reflectance/i < 0 \&\& e->reflectance/ | runtime/check_power
+light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power_scenes
+groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->reflectance/i < 0 \&\& e->reflectance/ | runtime/check_power_scenes
 leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
 shafts of empty rooms | runtime/visibility/rays.c | s/return free_space_is_all(&rays->free)$/return 0/ | runtime/check_bends
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
@@ -151,7 +151,7 @@ a class that none has met is sure | runtime/engine/face_error.c | s/seen\[k\] +=
 what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->error, element), 0)/fmax(truth_of(s, seen->error, element), 1)/ | solver/check_error_image
 clusters keep what they were | runtime/hierarchy/children_first.c | s/e = h->built; e-- > 0;/e = 0; e-- > 1;/ | runtime/check_measured_error runtime/check_transport
 halves are added | runtime/engine/face_error.c | s/x\[i + step\] = a - b/x[i + step] = a + b/ | runtime/check_measured_error
-coarse links that know nothing | runtime/engine/api_choice.c | s/PARTICLE \* (p->ray/0 * PARTICLE * (p->ray/ | solver/check_coarse_first
+coarse links that know nothing | runtime/engine/api_choice.c | s/PARTICLE \* spared/0 * spared/ | solver/check_coarse_first
 links at any price | runtime/engine/api_choice.c | s/may_be_none ? FEW : 0/0 * FEW/ | solver/check_coarse_first runtime/check_choice
 scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(oracle->set\[i\]/near = p->integer ? round(refiner_get(oracle->refiner, i)/; s/: oracle->set\[i\] \* times/: refiner_get(oracle->refiner, i) * times/ | runtime/check_choice
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice

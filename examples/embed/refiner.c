@@ -340,8 +340,8 @@
 
 /* ---- measured error (engine) */
 
-/* of the scene's area. A polygon above is a large face to a reader of the summary, however dim;
- * chosen: there can be a hundred of them at most */
+/* of the area of all that reflects. A polygon above is a large face to a reader of the summary,
+ * however dim, and judged by its own light; chosen: there can be a hundred of them at most */
 #define REFINER_FACE_ERROR_LARGE 0.01
 /* standard errors. A large face is surely wrong beyond this: 97.5 % of Student's t with 15 degrees
  * of freedom for the worst of a hundred */
@@ -401,7 +401,7 @@
  * rooms and of sejour are off by 2.30 % for 2.29 and 3.27 for 3.18, with 2 million by no less */
 #define REFINER_MEND_LEAVES (16 / REFINER_PLACE_SHARE)
 /* of the scene's area. Smaller faces are not cut for being long: those that somebody looks at, as
- * DIM_LARGE has it; */
+ * FACE_ERROR_LARGE has it; */
 #define REFINER_LONG_AREA 0.01
 /* nor into parts below that: sixteen places */
 #define REFINER_LONG_PART (16 * REFINER_PLACE_SHARE)
@@ -412,9 +412,6 @@
  * with leaves as large as links need them, by 3.2 with twice that side, and by 3.1 with this or
  * with half of it: tests/tables/judge.sh */
 #define REFINER_COVERED_SHARE (REFINER_PLACE_SHARE / 64)
-/* of the scene's area. A polygon above is judged by its own light, however dim; chosen with
- * FACE_ERROR_LARGE: there can be a hundred at most */
-#define REFINER_DIM_LARGE 0.01
 /* standard errors. Paths from a dim polygon that are farther than this from what particles and
  * links say of it have missed light (once in 370 by chance, which then costs split particles);
  * chosen */
@@ -424,9 +421,9 @@
 #define REFINER_DIM_GOAL 0.0255
 /* but some scenes have ten that are dim: where rays are left they go down to this, 99 % */
 #define REFINER_DIM_SURE 0.0194
-/* particles on a place of DIM_LARGE: where fewer come paths do not end. They know its light to a
- * sixteenth, and a polygon sees many such places. Chosen; with 100 or 1,000 large faces of maze_8
- * are as wrong for as many rays */
+/* particles on a place as large as large faces: where fewer come paths do not end. They know its
+ * light to a sixteenth, and a polygon sees many such places. Chosen; with 100 or 1,000 large faces
+ * of maze_8 are as wrong for as many rays */
 #define REFINER_DIM_BELIEVED 256
 /* times the rays of a first look by paths. Where particles would take no more, there is none.
  * Chosen: it is an eighth of them then */
@@ -442,8 +439,11 @@
 /* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
  * leave a dim polygon unsure: chosen, half a second */
 #define REFINER_DIM_FEW 1.5e6
-/* rays for paths from polygons below DIM_LARGE, where mending took fewer and DIM_FEW leaves them:
- * chosen, a tenth of a second */
+/* of what is left for small polygons, and of the rays of mending. So much at the most is for groups
+ * of them, which need not be known one by one; chosen */
+#define REFINER_DIM_GATHERED 0.25
+/* rays for paths from small polygons, where mending took fewer and DIM_FEW leaves them: chosen, a
+ * tenth of a second */
 #define REFINER_DIM_SMALL 4e5
 /* of the mean irradiance. Particles are not split for what is dimmer than that by far: what links
  * say of it may be nothing at all, and all rays would go there */

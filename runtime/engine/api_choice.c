@@ -105,6 +105,17 @@ static int measure(struct choosing *x, RadSolution solution, struct RadPlaces *p
     return 0;
 }
 
+/* Rays that particles alone need for places, and for polygons. */
+static double rays_for_places(const struct RadPlaces *p)
+{
+    return p->ray / (RAD_CORRECT_PLACES * RAD_CORRECT_PLACES);
+}
+
+static double rays_for_faces(const struct RadPlaces *p)
+{
+    return p->face / (RAD_CORRECT_NOISE * RAD_CORRECT_NOISE);
+}
+
 /* Solve without links, and find how many pairs links may cost to be tried: *pairs. Returns 0, or
  * -1. */
 static int solve_without(struct choosing *x, double *pairs, RadSolution *solution)
@@ -115,9 +126,8 @@ static int solve_without(struct choosing *x, double *pairs, RadSolution *solutio
     x->so_far.no_links = 0;
     if (status < 0 || measure(x, *solution, &p) < 0)
         return -1;
-    const double places = p.ray / (RAD_CORRECT_PLACES * RAD_CORRECT_PLACES),
-                 faces = p.face / (RAD_CORRECT_NOISE * RAD_CORRECT_NOISE);
-    *pairs = fmax(QUARTER * (places - faces), LITTLE * faces) / PAIR;
+    const double faces = rays_for_faces(&p);
+    *pairs = fmax(QUARTER * (rays_for_places(&p) - faces), LITTLE * faces) / PAIR;
     return 0;
 }
 
@@ -158,11 +168,9 @@ static int solve_coarse(struct choosing *x, RadSolution *solution)
 /* Are finer links worth their price, as coarse ones are measured? */
 static int is_finer_better(const struct RadPlaces *p, const struct RadReport *coarse)
 {
-    const double goal = RAD_CORRECT_PLACES * RAD_CORRECT_PLACES, rays = (double)coarse->rays,
-                 faces = p->face / (RAD_CORRECT_NOISE * RAD_CORRECT_NOISE),
-                 cost = TRIED * (rays + PAIR * (double)coarse->pairs);
-    return p->links * FINER * rays < p->ray
-           || PARTICLE * (p->ray / goal - p->ray / p->links - faces) > cost;
+    const double rays = (double)coarse->rays, cost = TRIED * (rays + PAIR * (double)coarse->pairs),
+                 spared = rays_for_places(p) - p->ray / p->links - rays_for_faces(p);
+    return p->links * FINER * rays < p->ray || PARTICLE * spared > cost;
 }
 
 /* Returns 0, or -1. */

@@ -71,24 +71,31 @@ static double open_area(const struct dim_faces *d, uint32_t face)
     return tracer_reflectance(t, face) > 0 ? uncovered * tracer_surface(t, face)->area : 0;
 }
 
+/* [parts]: what of each is open (m2), the caller's. NULL when out of memory. */
+static double *part_areas(const struct dim_faces *d)
+{
+    double *area = calloc((size_t)d->parts + 1, sizeof *area);
+    for (uint32_t i = 0; i < d->tracer->hierarchy->face_count && area; i++)
+        area[d->part[i]] += open_area(d, i);
+    return area;
+}
+
 /* What is looked at together: polygons; or, where groups are asked, what small ones are gathered
  * in. Returns 0, or -1 when out of memory. */
 static int find_parts(struct dim_faces *d)
 {
     const struct hierarchy *h = d->tracer->hierarchy;
     d->parts = d->solve->problem.scene->input_count;
-    d->large = DIM_LARGE * reflecting_area(&d->solve->problem, h);
+    d->large = large_area(&d->solve->problem, h);
     d->part = malloc(((size_t)h->face_count + 1) * sizeof *d->part);
-    double *area = calloc((size_t)d->parts + 1, sizeof *area);
-    int failed = !d->part || !area;
-    for (uint32_t i = 0; i < h->face_count && !failed; i++) {
+    for (uint32_t i = 0; i < h->face_count && d->part; i++)
         d->part[i] = h->faces[i].input;
-        area[d->part[i]] += open_area(d, i);
-    }
-    if (!failed && d->size == DIM_GROUPS)
-        failed = dim_parts_find(d->tracer, area, d->large, d->part, &d->parts) < 0;
+    if (!d->part || d->size != DIM_GROUPS)
+        return d->part ? 0 : -1;
+    double *area = part_areas(d);
+    const int status = area ? dim_parts_find(d->tracer, area, d->large, d->part, &d->parts) : -1;
     free(area);
-    return failed ? -1 : 0;
+    return status;
 }
 
 /* Is it one to look at? */
@@ -103,33 +110,30 @@ static int is_asked(const struct dim_faces *d, const struct candidate *c)
 /* Those to look at, no more than `most`, the largest ones. Returns 0, or -1 when out of memory. */
 static int list_polygons(struct dim_faces *d, uint32_t most)
 {
-    const struct tracer *t = d->tracer;
-    const struct hierarchy *h = t->hierarchy;
+    const struct hierarchy *h = d->tracer->hierarchy;
     uint32_t asked = 0;
-    struct candidate *all = calloc((size_t)d->parts + 1, sizeof *all);
+    double *area = part_areas(d);
+    struct candidate *all = malloc(((size_t)d->parts + 1) * sizeof *all);
     d->of = malloc(((size_t)d->parts + 1) * sizeof *d->of);
     d->face = malloc(((size_t)h->face_count + 1) * sizeof *d->face);
     d->until = malloc(((size_t)h->face_count + 1) * sizeof *d->until);
-    int failed = !all || !d->of || !d->face || !d->until;
+    int failed = !area || !all || !d->of || !d->face || !d->until;
     for (uint32_t p = 0; p < d->parts && !failed; p++) {
-        all[p].part = p;
+        const struct candidate c = {p, area[p]};
+        if (is_asked(d, &c))
+            all[asked++] = c;
         d->of[p] = NOT_DIM;
     }
-    for (uint32_t i = 0; i < h->face_count && !failed; i++)
-        all[d->part[i]].area += open_area(d, i);
-    for (uint32_t p = 0; p < d->parts && !failed; p++)
-        if (is_asked(d, &all[p]))
-            all[asked++] = all[p];
     if (!failed && asked > most)
         qsort(all, asked, sizeof *all, by_area);
     for (uint32_t i = 0; i < asked && i < most; i++)
         d->of[all[i].part] = 0;
     for (uint32_t p = 0; p < d->parts && !failed; p++)
-        if (d->of[p] != NOT_DIM) {
+        if (d->of[p] != NOT_DIM)
             d->of[p] = d->count++;
-        }
     d->polygon = failed ? NULL : calloc((size_t)d->count + 1, sizeof *d->polygon);
     free(all);
+    free(area);
     return d->polygon ? 0 : -1;
 }
 

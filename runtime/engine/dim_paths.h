@@ -37,8 +37,8 @@ static inline int dim_is_blind(const struct dim_polygon *p)
     return p->paths >= DIM_BLIND && p->sighted == 0 && !(p->all > 0);
 }
 
-/* Which polygons: those above DIM_LARGE of the area of what reflects; others together, in groups
- * that are above it (dim_parts.h); or others one by one. */
+/* Which polygons: large ones (polygon_rows.h); others together, in groups that are as large
+ * (dim_parts.h); or others one by one. */
 enum dim_size { DIM_LARGE_ONES, DIM_GROUPS, DIM_SMALL_ONES };
 
 #define NOT_DIM UINT32_MAX

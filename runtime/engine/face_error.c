@@ -522,10 +522,9 @@ static void show_all(struct face_error *f, const struct counted *c)
     ranks_add(ranks, RANKS_PARTICLES, &f->worst_share, 1);
 }
 
-/* Errors per polygon, and the worst. areas: of all sides (m2), [polygons]; all: of what reflects.
- */
+/* Errors per polygon, and the worst. areas: of all sides (m2), [polygons]; large: large_area. */
 static void show_polygons(struct face_error *f, const struct counted *c, const double *areas,
-                          double all)
+                          double large)
 {
     for (uint32_t row = 0; row < c->rows.count; row++) {
         const uint32_t i = polygon_of_row(&c->rows, row);
@@ -539,8 +538,7 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
             noise += c->deviation[j]; /* one particle has all bands: their noise is alike */
         }
         double sure = fabs(off) - FACE_ERROR_SURE * noise;
-        if (!(areas[i] > FACE_ERROR_LARGE * all) || !(reflected > 0)
-            || !(sure > f->worst_sure * reflected))
+        if (!(areas[i] > large) || !(reflected > 0) || !(sure > f->worst_sure * reflected))
             continue;
         f->worst = i;
         f->worst_share = off / reflected;
@@ -596,12 +594,12 @@ static struct RadMeasure expected_noise(const struct counted *c)
 }
 
 /* What large polygons have of the mean of that. */
-static double noise_of_large(const struct counted *c, const double *areas, double all)
+static double noise_of_large(const struct counted *c, const double *areas, double large)
 {
     double mean = 0;
     for (uint32_t row = 0; row < c->rows.count; row++)
         for (uint32_t k = 0; k < c->bands; k++)
-            if (areas[polygon_of_row(&c->rows, row)] > FACE_ERROR_LARGE * all)
+            if (areas[polygon_of_row(&c->rows, row)] > large)
                 mean += sqrt(2 / LAMBERT_PI) * c->deviation[(size_t)row * c->bands + k];
     polygon_rows_sum(&c->rows, &mean, 1);
     return mean / c->reflected;
@@ -616,7 +614,7 @@ int face_noise_find(const struct problem *p, const struct hierarchy *h, const do
     *noise = (struct face_noise){0, 0};
     if (!failed && c->reflected > 0)
         *noise = (struct face_noise){expected_noise(c).value,
-                                     noise_of_large(c, areas, reflecting_area(p, h))};
+                                     noise_of_large(c, areas, large_area(p, h))};
     counted_close(c);
     free(areas);
     return failed ? -1 : 0;
@@ -625,20 +623,19 @@ int face_noise_find(const struct problem *p, const struct hierarchy *h, const do
 /* Where no particle had any of a band, and the solution has, they know none of it. */
 static void show_bands(struct face_error *f, const struct counted *c)
 {
-    double mean[3] = {0}, solved[3] = {0}, noise[3] = {0}, all = 0;
+    struct {
+        double mean, solved, noise;
+    } sum[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     for (size_t i = 0; i < c->values; i++) {
-        mean[i % c->bands] += c->mean[i];
-        solved[i % c->bands] += c->solved[i];
-        noise[i % c->bands] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
+        sum[i % c->bands].mean += c->mean[i];
+        sum[i % c->bands].solved += c->solved[i];
+        sum[i % c->bands].noise += sqrt(2 / LAMBERT_PI) * c->deviation[i];
     }
-    polygon_rows_sum(&c->rows, mean, 3);
-    polygon_rows_sum(&c->rows, solved, 3);
-    polygon_rows_sum(&c->rows, noise, 3);
-    for (size_t k = 0; k < c->bands; k++)
-        all += solved[k];
+    polygon_rows_sum(&c->rows, &sum->mean, 3 * 3);
+    const double all = sum[0].solved + sum[1].solved + sum[2].solved;
     for (size_t k = 0; k < c->bands && all > 0; k++) {
-        f->band_light[k] = solved[k] / all;
-        f->band_noise[k] = mean[k] > 0 ? noise[k] / mean[k] : solved[k] > 0;
+        f->band_light[k] = sum[k].solved / all;
+        f->band_noise[k] = sum[k].mean > 0 ? sum[k].noise / sum[k].mean : sum[k].solved > 0;
     }
 }
 
@@ -672,7 +669,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         f->power = measure_power(c, (double)tally->particles * REPLICATES);
         f->l1 = measure_l1(c);
     }
-    show_polygons(f, c, areas, reflecting_area(p, h));
+    show_polygons(f, c, areas, large_area(p, h));
     show_bands(f, c);
     counted_close(c);
     free(areas);

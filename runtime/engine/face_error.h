@@ -19,7 +19,7 @@ struct face_error {
      * counted in it, as noise.value, but a share of the band's own light: 1 where none is counted,
      * 0 where there is none */
     double band_light[3], band_noise[3];
-    /* of polygons above FACE_ERROR_LARGE of the area that light meets: the one that is most
+    /* of polygons above large_area that light meets: the one that is most
      * surely wrong, and its error as a share of what it reflects, as seen, and the least that it
      * surely is (FACE_ERROR_SURE); polygons: there is none */
     uint32_t worst;
@@ -31,7 +31,7 @@ struct face_error {
 int face_error_open(struct face_error *f, const struct problem *p, const struct hierarchy *h,
                     const double *irradiance, const struct tally *tally);
 /* The L1 error of polygons that the noise of the tally alone makes, as a share of the reflected
- * light; and what polygons above FACE_ERROR_LARGE of the area have of it. Returns 0, or -1 when out
+ * light; and what polygons above large_area have of it. Returns 0, or -1 when out
  * of memory. */
 struct face_noise {
     double all, large;

@@ -245,12 +245,11 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
     struct dim_count groups, small;
     if (mend_polygons(s, t, tally, DIM_LARGE_ONES, paths, both, &watch, spent, &alone->dim) < 0)
         return -1;
-    /* Of groups it is told in any case which are not known. What single faces need is more, and
-     * where few rays were asked for few are spent on them. */
+    /* Of groups it is told in any case which are not known. */
     const uint64_t before = *spent;
     const double left = fmin(fmax(DIM_RAYS * mending, DIM_SMALL), both - (double)before);
-    if (mend_polygons(s, t, tally, DIM_GROUPS, 0.25 * fmax(fmin(left, mending), 0), 0, &watch,
-                      spent, &groups)
+    if (mend_polygons(s, t, tally, DIM_GROUPS, DIM_GATHERED * fmax(fmin(left, mending), 0), 0,
+                      &watch, spent, &groups)
         < 0)
         return -1;
     alone->gathered = groups.large;

@@ -32,7 +32,7 @@ static void sum_errors(const struct solve *s, const struct tally *tally, const d
 {
     const struct hierarchy *h = &s->hierarchy;
     const uint32_t bands = s->problem.bands;
-    const double least = FACE_ERROR_LARGE * reflecting_area(&s->problem, h);
+    const double least = large_area(&s->problem, h);
     for (uint32_t f = 0; f < h->face_count; f++) {
         const uint32_t e = h->face_element[f];
         const int large = area[h->faces[f].input] > least;

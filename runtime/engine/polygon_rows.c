@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "engine/polygon_rows.h"
 #include <stdlib.h>
+#include "kernel/constants.h"
 #include "util/thread_pool.h"
 
 /* Who has the polygons' first faces, and which have others of other ranks: first[polygon], the rank
@@ -139,10 +140,10 @@ double *polygon_areas(const struct problem *p, const struct hierarchy *h)
     return areas;
 }
 
-double reflecting_area(const struct problem *p, const struct hierarchy *h)
+double large_area(const struct problem *p, const struct hierarchy *h)
 {
     double area = 0;
     for (uint32_t i = 0; i < h->face_count; i++)
         area += p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0;
-    return area;
+    return FACE_ERROR_LARGE * area;
 }

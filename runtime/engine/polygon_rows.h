@@ -45,8 +45,8 @@ int polygon_rows_add(const struct polygon_rows *rows, const struct problem *p,
 /* [polygon]: the area of all its sides (m2), the caller's. NULL when out of memory. */
 double *polygon_areas(const struct problem *p, const struct hierarchy *h);
 
-/* Of all faces that reflect (m2). */
-double reflecting_area(const struct problem *p, const struct hierarchy *h);
+/* What is larger is a large face (m2): FACE_ERROR_LARGE of the area of all faces that reflect. */
+double large_area(const struct problem *p, const struct hierarchy *h);
 
 /* Sums over the rows of all ranks. */
 static inline void polygon_rows_sum(const struct polygon_rows *rows, double *sum, size_t count)

@@ -137,21 +137,17 @@ static void print_unsure(const struct measured *m)
 /* of a band's own light: as a reader holds every face to, and so much more than of all light */
 static const double BAND_TOLD = 0.05, BAND_WORSE = 4;
 
-static int is_band_unknown(const struct RadErrorReport *r, int band)
-{
-    return r->band_noise[band] > BAND_TOLD && r->band_noise[band] > BAND_WORSE * r->noise.value;
-}
-
 /* Bands that have too few of the particles for their light to be known. */
 static void print_bands(const struct measured *m)
 {
     for (int k = 0; k < 3 && m->mended; k++) {
-        const double light = 100 * m->alone.band_light[k], noise = 100 * m->alone.band_noise[k];
-        if (!is_band_unknown(&m->alone, k))
+        const double noise = m->alone.band_noise[k];
+        if (!(noise > BAND_TOLD && noise > BAND_WORSE * m->alone.noise.value))
             continue;
-        printf("bands     of band %d, %.2g %% of the reflected light, particles know ", k, light);
-        if (noise < 50)
-            printf("faces to %.2g %% only; the rest is as links say\n", noise);
+        printf("bands     of band %d, %.2g %% of the reflected light, particles know ", k,
+               100 * m->alone.band_light[k]);
+        if (noise < 0.5)
+            printf("faces to %.2g %% only; the rest is as links say\n", 100 * noise);
         else
             puts("next to nothing; it is as links say");
     }
