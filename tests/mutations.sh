@@ -22,7 +22,7 @@ leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#def
 quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
 dim faces at each look | runtime/engine/measured_error.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
 the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high, m->alone.noise.high)/e->l1_faces.value/ | solver/check_asked
-bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = mean/f->band_noise[k] = 0 * mean/ | solver/check_bands
+bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = sum/f->band_noise[k] = 0 * sum/ | solver/check_bands
 parts of two walls | runtime/engine/dim_parts.c | s/p->reach \* e->normal.k - 3.;/0 * e->normal[k - 3];/ | runtime/check_dim_faces
 groups that nobody is told of | runtime/engine/measured_error.c | s/^    dim_count_add(.*$/    (void)groups;/ | runtime/check_dim_faces
 light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power_scenes
