@@ -394,17 +394,17 @@ struct refiner_host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */
     uint64_t (*occluded)(const struct refiner_host *host, int count, const struct refiner_segment *segments);
-    double area;        /* of all faces, m2 */
-    double extent;      /* longest side of the scene's box (m) */
-    double exitance;    /* the largest E, W/m2 */
-    double reflectance; /* the largest rho */
+    double area;             /* of all faces, m2 */
+    double extent;           /* longest side of the scene's box (m) */
+    double exitance;         /* the largest E, W/m2 */
+    double reflectance;      /* the largest rho */
     double mean_reflectance; /* of all faces by area, > 0; 1 where none reflects */
-    double irradiance;  /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
-    double radiosity;   /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
-    double importance;  /* the largest Y; 1 where no view asks */
-    double impact;      /* what the largest importance stands for, W per W; 1 where nobody asks */
-    double rank;        /* W: what this pass leaves to later ones; 0: nothing */
-    double faces;       /* how many */
+    double irradiance;       /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
+    double radiosity;        /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
+    double importance;       /* the largest Y; 1 where no view asks */
+    double impact; /* what the largest importance stands for, W per W; 1 where nobody asks */
+    double rank;   /* W: what this pass leaves to later ones; 0: nothing */
+    double faces;  /* how many */
     /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
     const struct refiner_element *const *elements;
     double ray_offset; /* how far off its surface a ray must start (m) */
