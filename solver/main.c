@@ -12,6 +12,7 @@
 #include "hand.h"
 #include "study/study.h"
 #include "util/device.h"
+#include "util/heap.h"
 #include "util/machines.h"
 #include "util/report.h"
 #include "util/temporary.h"
@@ -107,6 +108,7 @@ static int flush_output(int status)
 
 int main(int count, char **arguments)
 {
+    heap_settle();
     /* Or else a file that we open would stand in for a stream that is closed, and get its text. */
     int stream;
     while ((stream = open("/dev/null", O_RDONLY)) >= 0 && stream < 3)

@@ -24,31 +24,15 @@ static int launched(void)
 #include <mpi.h>
 #include <signal.h>
 #include <time.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 enum { KEPT = 1 << 14, PATIENCE = 10 };
 
 static int begun, ranks = 1, rank, left_open;
 static char kept[KEPT];
 
-/* SuperLU_DIST, which PETSc brings along, has told malloc while it was loaded to keep for itself
- * all that is freed. Large arrays come and go here: a third of what a process took was such. */
-static void give_back_what_is_freed(void)
-{
-#ifdef __GLIBC__
-    enum { ARRAYS = 1 << 16, LARGE = 1 << 20 };
-    mallopt(M_MMAP_MAX, ARRAYS);
-    mallopt(M_MMAP_THRESHOLD, LARGE);
-    mallopt(M_TRIM_THRESHOLD, 2 * LARGE);
-#endif
-}
-
 int machines_begin(int *count, char ***arguments)
 {
     int given;
-    give_back_what_is_freed();
     if (launched() < 1)
         return 0;
     MPI_Init_thread(count, arguments, MPI_THREAD_FUNNELED, &given);
