@@ -33,7 +33,7 @@ rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row
 groups pay nothing | runtime/engine/row_sums.c | s/if (rows.sum > most \* rows.area)/if (0 \&\& rows.sum > most * rows.area)/ | runtime/check_transport
 groups pay all | runtime/engine/row_sums.c | s/fmax(0, (most \* rows->area - sure) \/ (all - sure))/0 * most/ | runtime/check_transport
 what sees nothing is looked at | runtime/engine/dim_paths.h | s/p->sighted == 0/p->sighted > p->paths/ | runtime/check_dim_faces
-covered faces are looked at | runtime/engine/dim_faces.c | s/? uncovered \*/? fmax(uncovered, 1) */ | runtime/check_dim_faces
+covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces
 near as far | runtime/terms/visibility.h | s/dot3(apart, apart) < wide \* wide/dot3(apart, apart) < 0 * wide/ | runtime/check_runtime
 shadow .05 | runtime/kernel/constants.h | s/\(ROW_SHADOW\) *0.5$/\1 0.05/ | runtime/check_transport runtime/check_closure runtime/check_solve

@@ -12,14 +12,8 @@
  * by what it differs from them where that is more: links as wrong as no others are believed too
  * much. Taken is the mean of both, each by the inverse of its variance.
  *
- * How many paths? So many that 1 / (1 / s^2 + n / v), v the variance of one, is the square of
- * DIM_GOAL of its light. Few tell first how noisy they are and how much light there is. Then
- * polygons get what they need, the cheapest first, so that few are left wrong; what remains makes
- * the others equally sure.
- *
  * Smaller polygons are nobody's loss in the light of all, but somebody's room in a landscape. They
- * are asked in the same way where few rays have been cast, all to be equally sure: there are too
- * many to get some of them right and leave the others as they are.
+ * are asked in the same way where few rays have been cast.
  *
  * A polygon whose paths all meet nothing is one that touches what it is turned to, as a cupboard's
  * back does a wall: it is dark, and no more is asked.
@@ -31,15 +25,15 @@
  * Below the polygon all elements keep their shares, and the power of the whole scene, which
  * particles know best, stays: what is added here all the others give in proportion.
  *
- * [The split of paths and the choice of polygons: derived here]
+ * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 #include "engine/dim_faces.h"
-#include "engine/dim_parts.h"
+#include "engine/dim_list.h"
+#include "engine/dim_plan.h"
 #include "engine/dim_split.h"
 #include "engine/own_quarters.h"
-#include "engine/polygon_rows.h"
 #include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 
@@ -48,118 +42,6 @@ enum {
     LOOK = DIM_BLIND  /* paths of a first look at most: chosen, the variance is known to a tenth */
 };
 #define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
-
-/* ---- which polygons */
-
-/* A polygon or a part, and what of it reflects and is not covered by what stands on it (m2). */
-struct candidate {
-    uint32_t part;
-    double area;
-};
-
-static int by_area(const void *a, const void *b)
-{
-    const struct candidate *x = a, *y = b;
-    return x->area != y->area ? (x->area < y->area ? 1 : -1)
-                              : (x->part > y->part) - (x->part < y->part);
-}
-
-static double open_area(const struct dim_faces *d, uint32_t face)
-{
-    const struct tracer *t = d->tracer;
-    const double uncovered = d->solve->operator.uncovered[t->hierarchy->face_element[face]];
-    return tracer_reflectance(t, face) > 0 ? uncovered * tracer_surface(t, face)->area : 0;
-}
-
-/* [parts]: what of each is open (m2), the caller's. NULL when out of memory. */
-static double *part_areas(const struct dim_faces *d)
-{
-    double *area = calloc((size_t)d->parts + 1, sizeof *area);
-    for (uint32_t i = 0; i < d->tracer->hierarchy->face_count && area; i++)
-        area[d->part[i]] += open_area(d, i);
-    return area;
-}
-
-/* What is looked at together: polygons; or, where groups are asked, what small ones are gathered
- * in. Returns 0, or -1 when out of memory. */
-static int find_parts(struct dim_faces *d)
-{
-    const struct hierarchy *h = d->tracer->hierarchy;
-    d->parts = d->solve->problem.scene->input_count;
-    d->large = large_area(&d->solve->problem, h);
-    d->part = malloc(((size_t)h->face_count + 1) * sizeof *d->part);
-    for (uint32_t i = 0; i < h->face_count && d->part; i++)
-        d->part[i] = h->faces[i].input;
-    if (!d->part || d->size != DIM_GROUPS)
-        return d->part ? 0 : -1;
-    double *area = part_areas(d);
-    const int status = area ? dim_parts_find(d->tracer, area, d->large, d->part, &d->parts) : -1;
-    free(area);
-    return status;
-}
-
-/* Is it one to look at? */
-static int is_asked(const struct dim_faces *d, const struct candidate *c)
-{
-    const enum dim_size size = !(c->area > d->large)                            ? DIM_SMALL_ONES
-                               : c->part < d->solve->problem.scene->input_count ? DIM_LARGE_ONES
-                                                                                : DIM_GROUPS;
-    return c->area > 0 && size == d->size;
-}
-
-/* Those to look at, no more than `most`, the largest ones. Returns 0, or -1 when out of memory. */
-static int list_polygons(struct dim_faces *d, uint32_t most)
-{
-    const struct hierarchy *h = d->tracer->hierarchy;
-    uint32_t asked = 0;
-    double *area = part_areas(d);
-    struct candidate *all = malloc(((size_t)d->parts + 1) * sizeof *all);
-    d->of = malloc(((size_t)d->parts + 1) * sizeof *d->of);
-    d->face = malloc(((size_t)h->face_count + 1) * sizeof *d->face);
-    d->until = malloc(((size_t)h->face_count + 1) * sizeof *d->until);
-    int failed = !area || !all || !d->of || !d->face || !d->until;
-    for (uint32_t p = 0; p < d->parts && !failed; p++) {
-        const struct candidate c = {p, area[p]};
-        if (is_asked(d, &c))
-            all[asked++] = c;
-        d->of[p] = NOT_DIM;
-    }
-    if (!failed && asked > most)
-        qsort(all, asked, sizeof *all, by_area);
-    for (uint32_t i = 0; i < asked && i < most; i++)
-        d->of[all[i].part] = 0;
-    for (uint32_t p = 0; p < d->parts && !failed; p++)
-        if (d->of[p] != NOT_DIM)
-            d->of[p] = d->count++;
-    d->polygon = failed ? NULL : calloc((size_t)d->count + 1, sizeof *d->polygon);
-    free(all);
-    free(area);
-    return d->polygon ? 0 : -1;
-}
-
-/* The faces of each, beside each other. */
-static void list_faces(struct dim_faces *d)
-{
-    const struct tracer *t = d->tracer;
-    const struct hierarchy *h = t->hierarchy;
-    uint32_t next = 0;
-    for (uint32_t i = 0; i < h->face_count; i++)
-        if (tracer_reflectance(t, i) > 0 && d->of[d->part[i]] != NOT_DIM)
-            d->polygon[d->of[d->part[i]]].to++;
-    for (uint32_t j = 0; j < d->count; j++) {
-        struct dim_polygon *p = &d->polygon[j];
-        p->from = next;
-        next += p->to;
-        p->to = p->from;
-    }
-    for (uint32_t i = 0; i < h->face_count; i++)
-        if (tracer_reflectance(t, i) > 0 && d->of[d->part[i]] != NOT_DIM) {
-            struct dim_polygon *p = &d->polygon[d->of[d->part[i]]];
-            p->area += tracer_surface(t, i)->area;
-            d->until[p->to] = p->area;
-            d->face[p->to++] = i;
-        }
-}
 
 /* What mending says of a polygon, and how sure that is: by how replicates differ, and as if one
  * more particle might have met it; or by how far it is from what these counted. */
@@ -227,95 +109,6 @@ static double believed(const struct dim_faces *d, const struct tally *tally)
 
 /* ---- how many, and what they say */
 
-/* Its light as far as is known by now, but no less than how uncertain that is (W/m2). */
-static double light_known(const struct dim_faces *d, const struct dim_polygon *p)
-{
-    double weight = p->paths > 0 ? dim_path_weight(d, p) : 0,
-           found = p->paths > 0 ? p->all / (double)p->paths : 0;
-    return fmax((1 - weight) * p->light + weight * found, sqrt((1 - weight) * p->variance));
-}
-
-/* How many paths more make its standard error that share of its light. No fewer than DIM_ENOUGH
- * times the first look in all: what fewer say is not taken. */
-static double paths_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
-{
-    if (dim_is_blind(p))
-        return 0;
-    double goal = share * light_known(d, p),
-           all = dim_path_variance(d, p) * fmax(1 / (goal * goal) - 1 / p->variance, 0);
-    return fmax(fmax(all, (double)(DIM_ENOUGH * p->looked)) - (double)p->paths, 0);
-}
-
-/* rays that these take. */
-static double rays_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
-{
-    return paths_for(d, p, share) * (double)p->rays / (double)p->paths;
-}
-
-/* Give those that reach DIM_GOAL what they need, the cheapest first, as far as the rays allow.
- * Returns how many rays are left. */
-static double plan_cheap(struct dim_faces *d, double rays)
-{
-    for (;;) {
-        struct dim_polygon *cheapest = NULL;
-        double least = rays;
-        for (uint32_t j = 0; j < d->count; j++) {
-            struct dim_polygon *p = &d->polygon[j];
-            double cost = p->planned ? INFINITY : rays_for(d, p, DIM_GOAL);
-            if (cost <= least) {
-                least = cost;
-                cheapest = p;
-            }
-        }
-        if (!cheapest)
-            return rays;
-        cheapest->planned = 1;
-        cheapest->wanted = cheapest->paths + (uint64_t)paths_for(d, cheapest, DIM_GOAL);
-        rays -= least;
-    }
-}
-
-/* That share of the light for all that are planned, or for all others. */
-static double rays_of(const struct dim_faces *d, int planned, double share)
-{
-    double sum = 0;
-    for (uint32_t j = 0; j < d->count; j++)
-        sum += d->polygon[j].planned == planned ? rays_for(d, &d->polygon[j], share) : 0;
-    return sum;
-}
-
-static void give(struct dim_faces *d, int planned, double share)
-{
-    for (uint32_t j = 0; j < d->count; j++) {
-        struct dim_polygon *p = &d->polygon[j];
-        if (p->planned == planned)
-            p->wanted = p->paths + (uint64_t)paths_for(d, p, share);
-    }
-}
-
-/* How many paths each is to have in the end, if so many rays are left. The others: as the rest
- * allows, all the same share of their light, in steps of a fiftieth. Where there are none those
- * that are planned are made surer by it. */
-static void plan(struct dim_faces *d, double rays)
-{
-    const double all = rays;
-    int sure = 1;
-    for (uint32_t j = 0; j < d->count; j++) {
-        d->polygon[j].planned = 0;
-        d->polygon[j].wanted = d->polygon[j].paths;
-    }
-    if (d->size != DIM_SMALL_ONES)
-        rays = plan_cheap(d, rays);
-    for (uint32_t j = 0; j < d->count; j++)
-        sure &= d->polygon[j].planned;
-    double share = sure ? DIM_SURE : DIM_GOAL;
-    const double most = sure ? DIM_GOAL : 1, left = sure ? all : rays;
-    while (share < most && rays_of(d, sure, share) > left)
-        share *= 1.02;
-    if (share < most)
-        give(d, sure, share);
-}
-
 /* A few paths of each; half of what is then planned; then all. */
 static int trace_paths(struct dim_faces *d, double budget)
 {
@@ -325,7 +118,7 @@ static int trace_paths(struct dim_faces *d, double budget)
         d->polygon[j].wanted = first > 1 ? (uint64_t)first : 1;
     for (int part = 2; part >= 0; part--) {
         if (part < 2)
-            plan(d, fmax(budget - (double)(*d->rays - before), 0));
+            dim_plan(d, fmax(budget - (double)(*d->rays - before), 0));
         for (uint32_t j = 0; j < d->count && part == 1; j++)
             d->polygon[j].wanted -= (d->polygon[j].wanted - d->polygon[j].paths) / 2;
         if (dim_paths_trace(d) < 0)
@@ -468,16 +261,6 @@ static void change(const struct dim_faces *d, double *irradiance)
     children_first(d->tracer->hierarchy, d->tracer->threads, change_element, &x);
 }
 
-static void close_all(struct dim_faces *d)
-{
-    free(d->part);
-    free(d->of);
-    free(d->polygon);
-    free(d->face);
-    free(d->until);
-    quarter_light_close(&d->light);
-}
-
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                    enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count)
@@ -489,9 +272,8 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     *count = (struct dim_count){0};
     if (!(t->lights.power > 0) || tally->particles == 0)
         return 0;
-    int failed = ranks_any(t->ranks, find_parts(&d) < 0 || list_polygons(&d, (uint32_t)most) < 0);
+    int failed = dim_list_open(&d, (uint32_t)most) < 0;
     if (!failed) {
-        list_faces(&d);
         count->large = d.count;
         failed = keep_dim(&d, tally) < 0;
         d.believed = believed(&d, tally);
@@ -510,7 +292,8 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     if (!failed)
         count_unsure(&d, count);
     int changed = failed ? -1 : (int)d.count;
-    close_all(&d);
+    dim_list_close(&d);
+    quarter_light_close(&d.light);
     return changed;
 }
 
