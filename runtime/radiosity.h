@@ -752,6 +752,10 @@ struct RadErrorReport {
      * in what is mended with them */
     struct RadMeasure noise;
     double reflected; /* light reflected, as counted, all bands (W) */
+    /* where no particle was reflected, though some may be: no more than that is (W, 95 %). Nothing
+     * is known of errors then: l1_faces.high and power.high are INFINITY, power.low -INFINITY.
+     * Else 0 */
+    double unseen;
     /* by band: its share of the light that the solution reflects, and noise.value of it as a share
      * of the band's own light: a band with few of the watts is known by few particles, or by none
      * (1), and `noise` does not show it */

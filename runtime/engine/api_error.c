@@ -27,6 +27,7 @@ static struct RadErrorReport report_of(const struct measured_error *m)
                                .p999 = m->p999,
                                .noise = m->faces.noise,
                                .reflected = m->faces.reflected,
+                               .unseen = m->faces.unseen,
                                .worst = m->faces.worst,
                                .worst_share = m->faces.worst_share,
                                .worst_sure = m->faces.worst_sure,

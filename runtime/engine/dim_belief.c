@@ -9,6 +9,9 @@
  * particles have no such bias: where these say otherwise, by MEND_EVIDENCE standard errors, mending
  * and paths are thought to be off in the same way.
  *
+ * What all of them end in, or have been scaled to, is all light that is reflected: no polygon is
+ * surer than that. And one that nobody has found any light on is not known to be dark.
+ *
  * Fails: where the two agree by chance. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -94,11 +97,11 @@ int dim_is_sure(const struct dim_faces *d, const struct dim_polygon *p)
 {
     if (dim_is_blind(p))
         return 1;
-    double variance, both = light_of_both(d, p, &variance), weight = split_weight(d, p),
-                     goal = DIM_GOAL * ((1 - weight) * both + weight * p->split_light);
+    double variance, both = light_of_both(d, p, &variance), weight = split_weight(d, p);
+    const double light = (1 - weight) * both + weight * p->split_light, goal = DIM_GOAL * light;
     if (weight > 0)
         variance = weight * p->split_variance;
-    return variance <= goal * goal;
+    return light > 0 && variance + d->shared * light * light <= goal * goal;
 }
 
 double dim_mean(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)

@@ -34,6 +34,7 @@
 #include "engine/dim_plan.h"
 #include "engine/dim_split.h"
 #include "engine/own_quarters.h"
+#include "engine/reflected_light.h"
 #include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 
@@ -88,8 +89,8 @@ static int keep_dim(struct dim_faces *d, const struct tally *tally)
             continue;
         struct dim_polygon at = d->polygon[d->of[p]]; /* places rise with p */
         weigh(d, tally, &sum[(size_t)d->of[p] * REPLICATES], &at);
-        double sure = DIM_GOAL * at.light;
-        d->of[p] = at.variance > sure * sure ? kept : NOT_DIM;
+        const double square = at.light * at.light;
+        d->of[p] = at.variance + d->shared * square > DIM_GOAL * DIM_GOAL * square ? kept : NOT_DIM;
         if (d->of[p] != NOT_DIM)
             d->polygon[kept++] = at;
     }
@@ -131,17 +132,44 @@ static int trace_paths(struct dim_faces *d, double budget)
 
 /* ---- those that are not sure by paths */
 
-static void count_unsure(const struct dim_faces *d, struct dim_count *count)
+static int is_named(const struct dim_count *count, uint32_t polygon)
+{
+    for (uint32_t i = 0; i < count->unsure && i < RAD_UNSURE_NAMED; i++)
+        if (count->named[i] == polygon)
+            return 1;
+    return 0;
+}
+
+/* A group's name is a polygon of it that no other has: those of both sides of tiles have the same.
+ */
+static uint32_t name_of(const struct dim_faces *d, const struct dim_polygon *p,
+                        const struct dim_count *count)
 {
     const struct face *faces = d->tracer->hierarchy->faces;
+    uint32_t i = p->from;
+    while (i + 1 < p->to && is_named(count, faces[d->face[i]].input))
+        i++;
+    return faces[d->face[i]].input;
+}
+
+static void count_unsure(const struct dim_faces *d, struct dim_count *count)
+{
     for (uint32_t j = 0; j < d->count; j++) {
         const struct dim_polygon *p = &d->polygon[j];
         if (dim_is_sure(d, p))
             continue;
         if (count->unsure < RAD_UNSURE_NAMED)
-            count->named[count->unsure] = faces[d->face[p->from]].input;
+            count->named[count->unsure] = name_of(d, p, count);
         count->unsure++;
     }
+}
+
+/* How little all light that is reflected is known: its variance over its square, 1 at the most. */
+static double shared_doubt(const struct solve *s, const struct tally *tally)
+{
+    double variance;
+    const double light = reflected_light(&s->problem, tally, &variance);
+    return variance < light * light ? variance / (light * light) : 1;
 }
 
 static int all_sure(const struct dim_faces *d)
@@ -270,11 +298,12 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
         size != DIM_SMALL_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
     struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
     *count = (struct dim_count){0};
-    if (!(t->lights.power > 0) || tally->particles == 0)
+    if (!(t->lights.power > 0) || !t->lights.reach || tally->particles == 0)
         return 0;
     int failed = dim_list_open(&d, (uint32_t)most) < 0;
     if (!failed) {
         count->large = d.count;
+        d.shared = size != DIM_SMALL_ONES ? shared_doubt(s, tally) : 0;
         failed = keep_dim(&d, tally) < 0;
         d.believed = believed(&d, tally);
         failed = failed || (d.count > 0 && quarter_light_open(&d.light, s) < 0);

@@ -56,6 +56,7 @@ struct dim_faces {
     double *until;   /* [faces]: running sums of their areas in the polygon (m2) */
     double believed; /* where less falls B~ is not asked: irradiance, all bands (W/m2) */
     double unseen;   /* light reflected, mean over the scene, all bands (W/m2) */
+    double shared;   /* variance of all light that is reflected, as a share of its square */
     const struct watch *watch;
     uint64_t *rays;
 };

@@ -15,6 +15,9 @@ struct face_error {
     struct RadMeasure power, l1; /* shares of the reflected light */
     struct RadMeasure noise;     /* the L1 error that chance makes of what is counted itself */
     double reflected;            /* light reflected, as counted, all bands (W) */
+    /* where none is counted and some might be: no more is (W, 95 %); nothing is known of errors
+     * then, which have no end. 0: some is counted, or none can be */
+    double unseen;
     /* by band: its share of the light that the solution reflects, and what chance makes of what is
      * counted in it, as noise.value, but a share of the band's own light: 1 where none is counted,
      * 0 where there is none */

@@ -74,12 +74,15 @@ double mended_error_wanted(double error, double noise, double goal)
     return noise * noise / (goal * goal) - noise * noise / (error * error) + 1;
 }
 
-/* How many times the tally tells all reflected light as surely as is wanted. */
+/* How many times the tally tells all reflected light as surely as is wanted. Of light that nobody
+ * has seen next to nothing is known. */
 static double power_times(const struct solve *s, const struct tally *tally,
                           const struct mending_goal *goal)
 {
     double variance;
     const double light = reflected_light(&s->problem, tally, &variance), most = goal->power * light;
+    if (!(light > 0))
+        return variance > 0 ? 1 / (goal->noise * goal->noise) : 0;
     return most > 0 ? variance / (most * most) : 0;
 }
 

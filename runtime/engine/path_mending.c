@@ -9,7 +9,9 @@
  *
  * Paths that hardly ever find the light, as of a lamp behind two bends, may have found none and
  * seem to have no noise. So what they say of all light together is held against the particles:
- * where it is farther off than the noise of both, particles go on. [Derived here]
+ * where it is farther off than the noise of both, particles go on, and where they found nothing at
+ * all. The other way round particles that hardly ever find a window have no more noise than those
+ * that did: so theirs is no less than it would be if paths were right. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/mended_error.h"
@@ -19,13 +21,15 @@
 
 enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
 
-/* Do both see the same light? */
+/* Do both see the same light, and any? */
 static int agree(const struct solve *s, const struct tally *particles, const struct tally *paths)
 {
-    double of_particles, of_paths,
-        off = reflected_light(&s->problem, particles, &of_particles)
-              - reflected_light(&s->problem, paths, &of_paths);
-    return off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);
+    double of_particles, of_paths;
+    const double by_particles = reflected_light(&s->problem, particles, &of_particles),
+                 by_paths = reflected_light(&s->problem, paths, &of_paths),
+                 off = by_particles - by_paths;
+    of_particles = fmax(of_particles, tally_power_of_one(particles) * by_paths);
+    return by_paths > 0 && off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);
 }
 
 /* Rays of a first look by paths, about. */

@@ -6,10 +6,12 @@
 #include "engine/problem.h"
 #include "particles/particles.h"
 
-/* W, all bands, on all ranks; *variance: of that, by how replicates differ. */
+/* W, all bands, on all ranks; *variance: of that, by how replicates differ; where none of the
+ * particles was reflected, though some may be, as if one more were. */
 static inline double reflected_light(const struct problem *p, const struct tally *tally,
                                      double *variance)
 {
+    const double one = tally->by_paths || !tally->reach ? 0 : tally_power_of_one(tally);
     double power[REPLICATES], mean = 0, square = 0;
     for (int r = 0; r < REPLICATES; r++) {
         power[r] = 0;
@@ -24,7 +26,7 @@ static inline double reflected_light(const struct problem *p, const struct tally
         mean += power[r] / REPLICATES;
     for (int r = 0; r < REPLICATES; r++)
         square += (power[r] - mean) * (power[r] - mean);
-    *variance = square / (REPLICATES * (REPLICATES - 1));
+    *variance = mean > 0 ? square / (REPLICATES * (REPLICATES - 1)) : one * one;
     return mean;
 }
 

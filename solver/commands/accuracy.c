@@ -23,6 +23,10 @@ enum { FIRST_LOOK = 1 << 14, FIRST_RAYS = 1 << 16 };
 /* how coarse links are at first, against what is set; and at the finest */
 static const double COARSEST = 8, FINEST = 1.0 / 1024;
 
+/* Where no particle of so many rays was reflected, no more are traced: chosen, a few seconds */
+static const double UNSEEN_RAYS = 1 << 22;
+static const char unseen[] = "seeing nothing that is reflected";
+
 /* of all that is cast: a guard against what would take hours */
 static const double ACCURACY_RAYS = 2e10;
 
@@ -31,9 +35,10 @@ static const double ACCURACY_RAYS = 2e10;
 static double reach(const struct options *o, const struct measured *m)
 {
     const struct RadErrorReport *e = &m->error;
-    return o->norm == ACCURACY_POWER ? fmax(fabs(e->power.low), fabs(e->power.high))
-           : o->norm == ACCURACY_L2  ? e->l2.high
-                                     : fmax(e->l1_faces.high, m->alone.noise.high);
+    return e->unseen > 0               ? INFINITY
+           : o->norm == ACCURACY_POWER ? fmax(fabs(e->power.low), fabs(e->power.high))
+           : o->norm == ACCURACY_L2    ? e->l2.high
+                                       : fmax(e->l1_faces.high, m->alone.noise.high);
 }
 
 struct work {
@@ -115,7 +120,14 @@ static int by_particles(struct work *w)
         const uint64_t before = w->a->rays;
         if (mend_and_measure(w, (uint64_t)rays, look) < 0)
             return -1;
-        const double reached = reach(w->o, w->m), ratio = reached / (AIM * wanted);
+        const double reached = reach(w->o, w->m);
+        if (isinf(reached)) {
+            if (rays >= UNSEEN_RAYS)
+                return w->a->why = unseen, 0;
+            rays = fmin(rays * LOOKS_MORE, UNSEEN_RAYS);
+            continue;
+        }
+        const double ratio = reached / (AIM * wanted);
         /* how often as many rays there may be, and are to be */
         const double most = SURE_LEFT * rays_left(w, &why) / (double)(w->a->rays - before),
                      times = fmin(ratio * ratio, most);
@@ -158,6 +170,8 @@ static int by_both(struct work *w)
         double before = reach(w->o, w->m), cost = (double)w->a->rays;
         if (before <= wanted)
             return w->a->reached = 1, 0;
+        if (isinf(before) && rays >= UNSEEN_RAYS)
+            return w->a->why = unseen, 0;
         int links = gain[1] > gain[0] && w->thresholds > 0 && scale > FINEST;
         w->a->why = limit(w, links ? 4 * (double)w->s->report.rays : 8 * rays);
         if (w->a->why)

@@ -94,7 +94,13 @@ void measured_warn(const struct measured *m, const char *where)
     const struct RadMeasure *l1 = &m->error.l1_faces;
     if (m->measured)
         warn_of_backs(&m->error, where);
-    if (m->measured && l1->value > MEASURED_WARNING)
+    if (m->measured && m->error.unseen > 0)
+        report_warning(where, 0,
+                       "none of %.3g particles was reflected: of what is, nothing is known but "
+                       "that it is less than about %.2g W; is a lamp shut in, or turned the wrong "
+                       "way?",
+                       (double)m->error.particles, m->error.unseen);
+    else if (m->measured && l1->value > MEASURED_WARNING)
         report_warning(
             where, 0,
             "reflected light per face is off by %.2g %% (%.2g to %.2g): %s; --image-error FILE.png "
@@ -167,6 +173,13 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
     }
     if (!m->measured)
         return;
+    if (e->unseen > 0) {
+        printf("error     not known: none of %.3g particles was reflected; less than about %.2g W "
+               "is\n",
+               (double)e->particles, e->unseen);
+        print_unsure(m);
+        return;
+    }
     if (!(e->reflected > 0)) {
         printf("error     none: no light is reflected\n");
         return;
@@ -200,8 +213,11 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
         printf("; too few rays to say how far single spots are\n");
 }
 
+/* null: nothing is known. */
 static json_t *measure_json(const struct RadMeasure *m)
 {
+    if (isinf(m->high))
+        return json_null();
     return json_pack("{s:f, s:f, s:f}", "value", m->value, "low", m->low, "high", m->high);
 }
 

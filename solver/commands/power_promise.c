@@ -25,6 +25,11 @@
 static void judge_promise(struct power_promise *p, const struct measured *m)
 {
     const double reflected = m->error.reflected;
+    if (m->error.unseen > 0) { /* all that might be reflected may be wrong */
+        p->value = p->low = 0;
+        p->high = m->error.unseen;
+        return;
+    }
     p->value = m->error.l1_faces.value * reflected;
     p->low = m->error.l1_faces.low * reflected;
     p->high = m->error.l1_faces.high * reflected;

@@ -525,7 +525,7 @@ START_TEST(test_bare)
         0);
     ck_assert_int_eq(measure_error(&s, 10000, 1, 0, &m, &cause), 0);
     ck_assert(m.faces.l1.value == 0 && m.faces.l1.low == 0 && m.faces.l1.high == 0);
-    ck_assert(m.faces.power.value == 0 && m.faces.reflected == 0);
+    ck_assert(m.faces.power.value == 0 && m.faces.reflected == 0 && m.faces.unseen == 0);
     ck_assert_uint_eq(m.faces.worst, scene.input_count);
     ck_assert_int_eq(measured_elements(&s, &m), 0);
     for (uint32_t e = 0; e < s.hierarchy.count; e++) {

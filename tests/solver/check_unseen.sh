@@ -1,0 +1,38 @@
+#!/bin/sh
+# check_unseen.sh - a lamp before a pinhole: `radiosity solve` says that nothing is known of what is reflected, never that nothing is.
+# RADIOSITY names the command.
+# Once is enough: it is about what is said.
+# SPDX-License-Identifier: MIT
+. "$(dirname "$0")/lib.sh"
+
+# A room of 2 m with a hole of .1 mm in a wall, and 4 m before that a lamp of .04 m2.
+printf 'newmtl wall\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 1000 1000 1000\n' >room.mtl
+cat >room.awk <<'END2'
+function wall(x0, x1, z0, z1) { print "f", corner(x0, 0, z0), corner(x0, 0, z1), corner(x1, 0, z1), corner(x1, 0, z0) }
+BEGIN {
+    print "mtllib room.mtl\nusemtl wall"
+    print "f", corner(0, 0, 0), corner(2, 0, 0), corner(2, 2, 0), corner(0, 2, 0)
+    print "f", corner(0, 0, 2), corner(0, 2, 2), corner(2, 2, 2), corner(2, 0, 2)
+    print "f", corner(0, 0, 0), corner(0, 2, 0), corner(0, 2, 2), corner(0, 0, 2)
+    print "f", corner(2, 0, 0), corner(2, 0, 2), corner(2, 2, 2), corner(2, 2, 0)
+    print "f", corner(0, 2, 0), corner(2, 2, 0), corner(2, 2, 2), corner(0, 2, 2)
+    wall(0, .99995, 0, 2); wall(1.00005, 2, 0, 2); wall(.99995, 1.00005, 0, .99995); wall(.99995, 1.00005, 1.00005, 2)
+    print "usemtl lamp"
+    print "f", corner(.9, -4, .9), corner(.9, -4, 1.1), corner(1.1, -4, 1.1), corner(1.1, -4, .9)
+}
+END2
+awk -f "$top/tests/solver/box.awk" -f room.awk >room.obj
+
+count=$((count + 7))
+"$radiosity" solve room.obj --json json >out 2>err || failed "solve: $(tail -n 1 err)"
+grep -q '^error     not known: none of .* particles was reflected; less than about .* W is$' out || failed "summary: $(grep '^error' out)"
+grep -q 'warning: none of .* nothing is known but that' err || failed "warning: $(cat err)"
+grep -q '^dim .* too dim for their light to be known' out || failed "dim: $(tail -n 3 out)"
+[ "$(sed -n '/"error": {/,/}/p' json | grep -c '"\(l1_faces\|power\)": null')" = 2 ] || failed "json: $(grep '"l1_faces"' json)"
+"$radiosity" solve room.obj --accuracy 1% >out 2>err
+status=$?
+{ [ $status = 3 ] && grep -q '^accuracy .*NOT kept' out; } || failed "accuracy: $status, $(tail -n 2 out)"
+"$radiosity" solve room.obj --accuracy l2:1% >out 2>err
+status=$?
+{ [ $status = 3 ] && grep -q '^accuracy .*NOT kept' out; } || failed "accuracy over the surfaces: $status, $(tail -n 2 out)"
+finish unseen
