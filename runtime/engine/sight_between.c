@@ -2,7 +2,7 @@
  * of their edges that may be an outline from a point of the piece.
  *
  * First by the shaft alone, where most pairs end: let every face part the two ends, and no edge be
- * an outline from anywhere; then how many faces a ray meets is the same for all (hidden.c), and one
+ * an outline from anywhere; then how many faces a ray meets is the same for all (hidden.c), and a
  * ray tells whether all is seen or nothing. Else the faces and edges that were found are put down
  * in the coordinates of the plane that shadows are cast on, for the points to look past them.
  * Whether a face that does not part the ends lies in the shaft at all is asked only where the
@@ -74,18 +74,37 @@ static int add_rims(struct sight_between *b, const struct exchange_tree *t,
     return 0;
 }
 
-/* One ray between the ends, which speaks for all where no edge is an outline. It meets none of the
- * faces that do not part the ends, for they do not meet the shaft. */
-static int stops_middle(const struct sight_between *b, const struct exchange_tree *t,
-                        const struct shaft *shaft, const signed char *front)
+/* Does any of the faces that part the ends stop it? It meets none of the others, for they do not
+ * meet the shaft. */
+static int stops(const struct sight_between *b, const struct exchange_tree *t,
+                 const signed char *front, double ray[2][3])
 {
-    double middle[2][3], along[3];
-    hidden_middle(shaft, middle);
-    sub3(along, middle[1], middle[0]);
+    double along[3];
+    sub3(along, ray[1], ray[0]);
     for (int i = 0; i < b->faces; i++) {
         const struct element *e = &t->h.elements[b->list[i]];
-        if (front[i]
-            && hidden_through(middle[0], along, (const double(*)[3])e->vertex, e->vertices))
+        if (front[i] && hidden_through(ray[0], along, (const double(*)[3])e->vertex, e->vertices))
+            return 1;
+    }
+    return 0;
+}
+
+/* Where no edge is an outline one ray between the ends speaks for all; but edges that count as one
+ * may leave a joint between them, and the first ray, between two middles, lie in it. So it is asked
+ * of two more, which have nothing in common with the scene's symmetries. */
+static int stops_all(const struct sight_between *b, const struct exchange_tree *t,
+                     const struct shaft *shaft, const signed char *front)
+{
+    static const double off[3][2] = {{0, 0}, {0.37, 0.29}, {0.61, 0.53}};
+    double middle[2][3], ray[2][3];
+    hidden_middle(shaft, middle);
+    for (int line = 0; line < 3; line++) {
+        for (int end = 0; end < 2; end++) {
+            const double *corner = shaft->end[end][(line + end) % shaft->points[end]];
+            for (int k = 0; k < 3; k++)
+                ray[end][k] = middle[end][k] + off[line][end] * (corner[k] - middle[end][k]);
+        }
+        if (stops(b, t, front, ray))
             return 1;
     }
     return 0;
@@ -121,7 +140,7 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
     for (int i = 0; i < b->faces; i++)
         if (!front[i] && candidates_meets(&t->h, shaft, t->host.ray_offset, b->list[i]))
             return BETWEEN_SOME;
-    return stops_middle(b, t, shaft, front) ? BETWEEN_ALL : BETWEEN_NOTHING;
+    return stops_all(b, t, shaft, front) ? BETWEEN_ALL : BETWEEN_NOTHING;
 }
 
 /* ---- in the plane's coordinates */

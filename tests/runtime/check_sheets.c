@@ -4,6 +4,7 @@
  * seen from above, and what a stripe of one wall exchanges with one of the other, d beside it, is
  * atan(1 / sqrt(c)) / (pi c^1.5), c = 1 + d^2, for walls 1 m high and 1 m apart. Of each stripe the
  * sheets hide stretches of the other wall; the rest is summed up.
+ * Two sheets beside each other leave a joint between them.
  * [two integrals over heights of Lambert's kernel; derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -124,6 +125,53 @@ START_TEST(test_row)
 }
 END_TEST
 
+/* What a joint of `width` between two sheets lets through, midway between unit plates 4 m apart:
+ * over its length x and the points p of the plate beyond, whose mirror images in x the other plate
+ * has.
+ */
+static double through_joint(double width)
+{
+    enum { N = 80 };
+    double sum = 0;
+    for (int i = 0; i < N; i++) {
+        const double x = (i + 0.5) / N, from = fmax(0, 2 * x - 1), to = fmin(1, 2 * x);
+        for (int j = 0; j < N * N; j++) {
+            const double p = from + (to - from) * (j % N + 0.5) / N - x,
+                         q = (j / N + 0.5) / N - 0.5, square = p * p + q * q + 4;
+            sum += (to - from) * 4 / (square * square);
+        }
+    }
+    return width * sum / (3.14159265358979323846 * N * N * N);
+}
+
+/* A joint that is narrower than edges of one place are apart counts as shut; a wider one lets
+ * through what it does. None lets through what there is without sheets, which a ray from middle to
+ * middle saw. */
+START_TEST(test_joint)
+{
+    static const double width[] = {0,    1e-6,   1e-5, 2e-5, 3e-5, 3.5e-5,
+                                   4e-5, 4.5e-5, 5e-5, 1e-4, 1e-3};
+    static double f[FACES], area[FACES];
+    const double right[3] = {1, 0, 0}, up[3] = {0, 1, 0}, wide[3] = {3, 0, 0};
+    for (size_t i = 0; i < sizeof width / sizeof *width; i++) {
+        const double half[3] = {0, 1.5 - width[i] / 2, 0}, lower[3] = {-1, -1, 2},
+                     upper[3] = {-1, 0.5 + width[i] / 2, 2}, low[3] = {0, 0, 0},
+                     high[3] = {0, 0, 4};
+        clear();
+        rectangle(low, right, up);
+        rectangle(high, up, right);
+        for (int side = 0; side < 2; side++) {
+            rectangle(lower, side ? half : wide, side ? wide : half);
+            rectangle(upper, side ? half : wide, side ? wide : half);
+        }
+        factors(1, 0, f, area);
+        ck_assert_msg(f[1] < 1.01 * through_joint(width[i]) + 3e-8, "%g: %g", width[i], f[1]);
+        if (width[i] > 9e-5)
+            ck_assert_double_eq_tol(f[1], through_joint(width[i]), 0.01 * through_joint(width[i]));
+    }
+}
+END_TEST
+
 /* The judge itself: of no sheets, and of one that reaches from wall to wall, the factor is known.
  */
 START_TEST(test_right)
@@ -141,6 +189,7 @@ int main(void)
     tcase_set_timeout(t, 120);
     tcase_add_test(t, test_right);
     tcase_add_test(t, test_row);
+    tcase_add_test(t, test_joint);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
