@@ -406,6 +406,12 @@ static int check_together(struct options *o)
         return wrong(c->name, "--step and --json do not go together");
     if (o->out && o->command == COMMAND_VIEWFACTORS && !o->format_given)
         o->format = factor_format_of(o->out);
+    if (o->command == COMMAND_VIEWFACTORS && !o->out && !o->sensor && !o->product
+        && (o->format_given || o->losses || (o->by != BY_FACE && !o->names && !o->json)))
+        return wrong(c->name, "%s is about the matrix, which is written nowhere: add -o FILE",
+                     o->format_given ? "--format"
+                     : o->losses     ? "--sky"
+                                     : "--by");
     if (o->losses && factor_format_square(o->format))
         return wrong(c->name, "--sky adds columns, and this format takes a square matrix: csv, "
                               "coo, mtx and npz have room for them");

@@ -83,6 +83,9 @@ says 2 "--clusters takes sah, embree, octree, kd or halves, not x" solve "$scene
 says 2 "--only takes sah, embree" study clustering "$scene" --only x
 says 2 "--format takes csv, coo, mtx, npz, view3d, energyplus or openfoam, not x" viewfactors "$scene" --format x
 says 2 "--by takes face, material, group or object, not x" viewfactors "$scene" --by x
+says 2 "--format is about the matrix, which is written nowhere: add -o FILE" viewfactors "$scene" --format npz
+says 2 "--sky is about the matrix" viewfactors "$scene" --sky
+says 2 "--by is about the matrix" viewfactors "$scene" --by material
 says 2 "-o takes a file named .csv or .md, not x" study stability -o x
 says 2 "--chart takes a file named .svg or .png, not x.svgz" study visibility "$scene" --chart x.svgz
 
