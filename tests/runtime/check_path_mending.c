@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include "engine/measured_error.h"
 #include "engine/path_mending.h"
+#include "engine/reflected_light.h"
 #include "engine/solve_tracer.h"
 #include "runtime/make_known.h"
 #include "runtime/make_solve.h"
@@ -159,6 +160,33 @@ START_TEST(test_other_light)
 }
 END_TEST
 
+/* So few particles meet the box that a fifth of what paths see may be chance, though replicates,
+ * most of which have none, seem to know better. */
+START_TEST(test_few_particles)
+{
+    struct scene scene;
+    struct solve s;
+    struct tally particles;
+    struct path_tally y;
+    double variance;
+    box_under_sky(&scene, 100);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
+    struct tracer t = solve_tracer(&s);
+    ck_assert_int_eq(tracer_open(&t), 0);
+    ck_assert_int_eq(tally_open(&particles, &t, 1, 0), 0);
+    ck_assert_int_eq(tally_trace(&particles, &t, 1000, NULL), 0);
+    const double light = reflected_light(&s.problem, &particles, &variance);
+    particles.power *= 0.2 * 0.6 * 6 / light;
+    printf("%.2g +- %.2g of 3.6 W by few particles\n", light, sqrt(variance));
+    ck_assert_int_eq(path_mending_trace(&y, &s, &t, &particles, &goal, NULL), 1);
+    path_tally_close(&y);
+    tally_close(&particles);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Is the L1 error of light that is off by `off` of itself within what paths say of it? */
 static int covered(const struct solve *s, const double *truth, const struct tally *y, double off,
                    struct chance *c)
@@ -263,6 +291,7 @@ int main(void)
     tcase_add_test(c, test_left);
     tcase_add_test(c, test_room);
     tcase_add_test(c, test_other_light);
+    tcase_add_test(c, test_few_particles);
     tcase_add_test(c, test_coverage);
     tcase_add_test(c, test_same);
     suite_add_tcase(suite, c);
