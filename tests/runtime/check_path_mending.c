@@ -134,29 +134,53 @@ START_TEST(test_room)
 }
 END_TEST
 
+/* The box under a sky, and a look at it by so many particles of each replicate. */
+struct looked {
+    struct scene scene;
+    struct solve solve;
+    struct tracer tracer;
+    struct tally particles;
+};
+
+static void look(struct looked *l, uint64_t particles)
+{
+    box_under_sky(&l->scene, 100);
+    solve_with(&l->solve, &l->scene, "power", RELEASE_FLAT, NULL, quick(1));
+    l->tracer = solve_tracer(&l->solve);
+    ck_assert_int_eq(tracer_open(&l->tracer), 0);
+    ck_assert_int_eq(tally_open(&l->particles, &l->tracer, 1, 0), 0);
+    ck_assert_int_eq(tally_trace(&l->particles, &l->tracer, particles, NULL), 0);
+}
+
+static void looked_close(struct looked *l)
+{
+    tally_close(&l->particles);
+    tracer_close(&l->tracer);
+    solve_close(&l->solve);
+    made_close(&l->scene);
+}
+
+/* Do paths mend, if particles have seen `times` as much light as they have? */
+static int paths_mend(struct looked *l, double times)
+{
+    struct path_tally y;
+    const double power = l->particles.power;
+    l->particles.power *= times;
+    const int mend = path_mending_trace(&y, &l->solve, &l->tracer, &l->particles, &goal, NULL);
+    path_tally_close(&y);
+    l->particles.power = power;
+    return mend;
+}
+
 /* Where particles see ten times the light that paths do, paths are not believed, however sure they
  * are. */
 START_TEST(test_other_light)
 {
-    struct scene scene;
-    struct solve s;
-    struct tally particles;
-    struct path_tally y;
-    box_under_sky(&scene, 100);
-    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
-    struct tracer t = solve_tracer(&s);
-    ck_assert_int_eq(tracer_open(&t), 0);
-    ck_assert_int_eq(tally_open(&particles, &t, 1, 0), 0);
-    ck_assert_int_eq(tally_trace(&particles, &t, 20000, NULL), 0);
-    ck_assert_int_eq(path_mending_trace(&y, &s, &t, &particles, &goal, NULL), 1);
-    path_tally_close(&y);
-    particles.power *= 10;
-    ck_assert_int_eq(path_mending_trace(&y, &s, &t, &particles, &goal, NULL), 0);
-    path_tally_close(&y);
-    tally_close(&particles);
-    tracer_close(&t);
-    solve_close(&s);
-    made_close(&scene);
+    struct looked l;
+    look(&l, 20000);
+    ck_assert_int_eq(paths_mend(&l, 1), 1);
+    ck_assert_int_eq(paths_mend(&l, 10), 0);
+    looked_close(&l);
 }
 END_TEST
 
@@ -164,26 +188,13 @@ END_TEST
  * most of which have none, seem to know better. */
 START_TEST(test_few_particles)
 {
-    struct scene scene;
-    struct solve s;
-    struct tally particles;
-    struct path_tally y;
+    struct looked l;
     double variance;
-    box_under_sky(&scene, 100);
-    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
-    struct tracer t = solve_tracer(&s);
-    ck_assert_int_eq(tracer_open(&t), 0);
-    ck_assert_int_eq(tally_open(&particles, &t, 1, 0), 0);
-    ck_assert_int_eq(tally_trace(&particles, &t, 1000, NULL), 0);
-    const double light = reflected_light(&s.problem, &particles, &variance);
-    particles.power *= 0.2 * 0.6 * 6 / light;
+    look(&l, 1000);
+    const double light = reflected_light(&l.solve.problem, &l.particles, &variance);
     printf("%.2g +- %.2g of 3.6 W by few particles\n", light, sqrt(variance));
-    ck_assert_int_eq(path_mending_trace(&y, &s, &t, &particles, &goal, NULL), 1);
-    path_tally_close(&y);
-    tally_close(&particles);
-    tracer_close(&t);
-    solve_close(&s);
-    made_close(&scene);
+    ck_assert_int_eq(paths_mend(&l, 0.2 * 0.6 * 6 / light), 1);
+    looked_close(&l);
 }
 END_TEST
 
