@@ -78,7 +78,7 @@ void radGetReport(RadSolution solution, struct RadReport *report);
 
 struct RadMeasure { double value, low, high; };
 struct RadMeasureOptions { uint64_t rays; uint32_t stream; int surfaces; ...; };
-struct RadErrorReport { struct RadMeasure power, l1_faces, l2, p999, noise; double reflected;
+struct RadErrorReport { struct RadMeasure power, l1_faces, l2, p999, noise; double reflected, unseen;
                         uint32_t worst; double worst_share, worst_sure; uint64_t rays, particles;
                         double seconds; ...; };
 int radMeasureError(RadSolution solution, const struct RadMeasureOptions *options,

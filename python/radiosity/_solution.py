@@ -20,8 +20,9 @@ class Solution:
     radiosity, irradiance: B and H, W/m2. report: counts and powers (struct RadReport of radiosity.h).
     error, deviation: B less the truth, as measured, and the standard error of that, W/m2. measured: the error of the
     whole as shares of the reflected light (struct RadErrorReport): .l1_faces and .power have .value and .low and
-    .high, a 95 % interval. All three are None until the error is measured. links: how many were made, where that was
-    chosen (struct RadChoice of radiosity.h): .no_links is 1 where there are none, .scale the thresholds' scale.
+    .high, a 95 % interval; where .unseen (W) is above 0 no particle was reflected: no more light than that is, and
+    .high is inf. All three are None until the error is measured. links: how many were made, where that was chosen
+    (struct RadChoice of radiosity.h): .no_links is 1 where there are none, .scale the thresholds' scale.
     """
 
     def __init__(self, device, handle, count):
