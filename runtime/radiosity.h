@@ -1280,6 +1280,8 @@ RAD_API int radMeasureErrorBy(RadSolution solution, RadReference reference,
 struct RadReferenceReport {
     uint64_t traced[2], rays[2]; /* particles, paths, and the rays for them */
     double emitted, reflected;   /* W, all bands; reflected by both */
+    /* where nothing was seen to be reflected: no more than that is (W, 95 %); 0: nothing is */
+    double unseen;
     /* standard errors of B, mean by area, as shares of the reflected light: by particles, by paths,
      * by both; 0 where nothing is reflected */
     double noise[RAD_METHODS];

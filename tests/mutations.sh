@@ -22,7 +22,7 @@ leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#def
 quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
 dim faces at each look | runtime/engine/measured_error.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
 the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high, m->alone.noise.high)/e->l1_faces.value/ | solver/check_asked
-bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = sum/f->band_noise[k] = 0 * sum/ | solver/check_bands
+bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = mean/f->band_noise[k] = 0 * mean/ | solver/check_bands
 parts of two walls | runtime/engine/dim_parts.c | s/p->reach \* e->normal.k - 3.;/0 * e->normal[k - 3];/ | runtime/check_dim_faces
 groups that nobody is told of | runtime/engine/measured_error.c | s/^    dim_count_add(.*$/    (void)groups;/ | runtime/check_dim_faces
 light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power_scenes
@@ -35,10 +35,10 @@ groups pay all | runtime/engine/row_sums.c | s/fmax(0, (most \* rows->area - sur
 what sees nothing is looked at | runtime/engine/dim_paths.h | s/p->sighted == 0/p->sighted > p->paths/ | runtime/check_dim_faces
 the ray in a joint speaks for all | runtime/engine/sight_between.c | s/line < 3; line/line < 1; line/ | runtime/check_sheets
 paths are held against particles that saw nothing | runtime/engine/path_mending.c | s/fmax(of_particles, tally_power_of_one(particles) . by_paths)/fmax(of_particles, 0 * by_paths)/ | runtime/check_path_mending
-nothing seen is nothing there | runtime/engine/reflected_light.h | s/: one \* one/: 0 * one * one/ | runtime/check_unseen_light
-faces are surer than all light | runtime/engine/dim_belief.c | s/variance + d->shared \* light \* light/variance/ | runtime/check_unseen_light
-what nobody has found light on is dark | runtime/engine/dim_belief.c | s/light > 0 \&\& variance/variance/ | runtime/check_unseen_light
-planes prove nothing | runtime/particles/lights_reach.c | s/    return 0;/    return 1;/ | runtime/check_unseen_light
+nothing seen is nothing there | runtime/engine/reflected_light.c | s/        \*variance = tally_power_of_one/        *variance = 0 * tally_power_of_one/ | runtime/check_unseen_light
+faces are surer than all light | runtime/engine/dim_belief.h | s/variance + d->shared \* light/variance + 0 * d->shared * light/ | runtime/check_unseen_light
+what nobody has found light on is dark | runtime/engine/dim_belief.h | s/light > 0 \&\& variance/variance/ | runtime/check_unseen_light
+planes prove nothing | runtime/engine/reflected_light.c | s/^    return 0;/    return 1;/ | runtime/check_unseen_light
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces
 near as far | runtime/terms/visibility.h | s/dot3(apart, apart) < wide \* wide/dot3(apart, apart) < 0 * wide/ | runtime/check_runtime

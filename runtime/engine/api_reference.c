@@ -203,6 +203,7 @@ int radGetReferenceReport(RadReference r, struct RadReferenceReport *report)
                                     .rays = {x->tally.rays, x->paths.rays},
                                     .emitted = s.emitted,
                                     .reflected = s.reflected,
+                                    .unseen = s.unseen,
                                     .difference = share * s.difference,
                                     .deviation = share * s.deviation,
                                     .chi_square = s.chi_square,

@@ -16,7 +16,6 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/dim_belief.h"
-#include "kernel/constants.h"
 
 void dim_count_replicates(const struct dim_faces *d, const struct tally *tally,
                           const struct dim_polygon *p, double sum[REPLICATES])
@@ -98,10 +97,9 @@ int dim_is_sure(const struct dim_faces *d, const struct dim_polygon *p)
     if (dim_is_blind(p))
         return 1;
     double variance, both = light_of_both(d, p, &variance), weight = split_weight(d, p);
-    const double light = (1 - weight) * both + weight * p->split_light, goal = DIM_GOAL * light;
     if (weight > 0)
         variance = weight * p->split_variance;
-    return light > 0 && variance + d->shared * light * light <= goal * goal;
+    return dim_is_known(d, (1 - weight) * both + weight * p->split_light, variance);
 }
 
 double dim_mean(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)

@@ -4,6 +4,7 @@
 #define DIM_BELIEF_H
 
 #include "engine/dim_paths.h"
+#include "kernel/constants.h"
 #include "particles/particles.h"
 
 /* times the paths of a first look: what fewer say is not believed; chosen, its noise is then halved
@@ -22,6 +23,14 @@ double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p)
 
 /* The share of paths in the mean of them and mending, each by the inverse of its variance. */
 double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p);
+
+/* Of some light with that variance, and a relative variance that all light shares: is its standard
+ * error no more than DIM_GOAL of it? */
+static inline int dim_is_known(const struct dim_faces *d, double light, double variance)
+{
+    const double goal = DIM_GOAL * light;
+    return light > 0 && variance + d->shared * light * light <= goal * goal;
+}
 
 /* Is its standard error, by all, no more than DIM_GOAL of its light? */
 int dim_is_sure(const struct dim_faces *d, const struct dim_polygon *p);

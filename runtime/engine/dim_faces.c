@@ -89,8 +89,7 @@ static int keep_dim(struct dim_faces *d, const struct tally *tally)
             continue;
         struct dim_polygon at = d->polygon[d->of[p]]; /* places rise with p */
         weigh(d, tally, &sum[(size_t)d->of[p] * REPLICATES], &at);
-        const double square = at.light * at.light;
-        d->of[p] = at.variance + d->shared * square > DIM_GOAL * DIM_GOAL * square ? kept : NOT_DIM;
+        d->of[p] = dim_is_known(d, at.light, at.variance) ? NOT_DIM : kept;
         if (d->of[p] != NOT_DIM)
             d->polygon[kept++] = at;
     }
@@ -165,10 +164,8 @@ static void count_unsure(const struct dim_faces *d, struct dim_count *count)
 }
 
 /* How little all light that is reflected is known: its variance over its square, 1 at the most. */
-static double shared_doubt(const struct solve *s, const struct tally *tally)
+static double shared_doubt(double light, double variance)
 {
-    double variance;
-    const double light = reflected_light(&s->problem, tally, &variance);
     return variance < light * light ? variance / (light * light) : 1;
 }
 
@@ -298,12 +295,14 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
         size != DIM_SMALL_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
     struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
     *count = (struct dim_count){0};
-    if (!(t->lights.power > 0) || !t->lights.reach || tally->particles == 0)
+    double variance;
+    const double light = reflected_light(&s->problem, &s->hierarchy, tally, &variance);
+    if (tally->particles == 0 || !(light > 0 || variance > 0))
         return 0;
     int failed = dim_list_open(&d, (uint32_t)most) < 0;
     if (!failed) {
         count->large = d.count;
-        d.shared = size != DIM_SMALL_ONES ? shared_doubt(s, tally) : 0;
+        d.shared = size != DIM_SMALL_ONES ? shared_doubt(light, variance) : 0;
         failed = keep_dim(&d, tally) < 0;
         d.believed = believed(&d, tally);
         failed = failed || (d.count > 0 && quarter_light_open(&d.light, s) < 0);

@@ -36,6 +36,7 @@
 #include <stdlib.h>
 #include "engine/face_error.h"
 #include "engine/polygon_rows.h"
+#include "engine/reflected_light.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "util/thread_pool.h"
@@ -623,27 +624,26 @@ int face_noise_find(const struct problem *p, const struct hierarchy *h, const do
 /* Where no particle had any of a band, and the solution has, they know none of it. */
 static void show_bands(struct face_error *f, const struct counted *c)
 {
-    struct {
-        double mean, solved, noise;
-    } sum[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    enum { BANDS = 3, SUMS = 3 * BANDS };
+    double sum[SUMS] = {0}, *mean = sum, *solved = mean + BANDS, *noise = solved + BANDS;
     for (size_t i = 0; i < c->values; i++) {
-        sum[i % c->bands].mean += c->mean[i];
-        sum[i % c->bands].solved += c->solved[i];
-        sum[i % c->bands].noise += sqrt(2 / LAMBERT_PI) * c->deviation[i];
+        const size_t k = i % c->bands;
+        mean[k] += c->mean[i];
+        solved[k] += c->solved[i];
+        noise[k] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
     }
-    polygon_rows_sum(&c->rows, &sum->mean, 3 * 3);
-    const double all = sum[0].solved + sum[1].solved + sum[2].solved;
+    polygon_rows_sum(&c->rows, sum, SUMS);
+    const double all = solved[0] + solved[1] + solved[2];
     for (size_t k = 0; k < c->bands && all > 0; k++) {
-        f->band_light[k] = sum[k].solved / all;
-        f->band_noise[k] = sum[k].mean > 0 ? sum[k].noise / sum[k].mean : sum[k].solved > 0;
+        f->band_light[k] = solved[k] / all;
+        f->band_noise[k] = mean[k] > 0 ? noise[k] / mean[k] : solved[k] > 0;
     }
 }
 
-/* Of n particles, each with the power `one`, none is reflected: a share of 3 / n may be, in 95 of
- * 100 cases ("rule of three", Hanley and Lippman-Hand 1983). */
-static void show_nothing(struct face_error *f, double one)
+/* Where nothing is reflected of what was seen. */
+static void show_nothing(struct face_error *f, double unseen)
 {
-    f->unseen = 3 * one;
+    f->unseen = unseen;
     if (f->unseen > 0) {
         f->l1.high = f->power.high = INFINITY;
         f->power.low = -INFINITY;
@@ -673,8 +673,8 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         return -1;
     }
     f->reflected = c->reflected;
-    if (!(f->reflected > 0) && tally->reach)
-        show_nothing(f, tally_power_of_one(tally));
+    if (!(f->reflected > 0))
+        show_nothing(f, unseen_light(p, h, tally));
     find_scales(c);
     find_errors(c);
     if (f->reflected > 0) {

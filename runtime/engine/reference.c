@@ -305,10 +305,12 @@ int reference_summary(const struct reference *r, struct reference_summary *s)
         }
     }
     double variance;
-    (void)reflected_light(p, &r->tally, &variance);
+    (void)reflected_light(p, &r->solve.hierarchy, &r->tally, &variance);
     for (size_t i = 0; i < count; i++)
         variance += deviation[i] * deviation[i];
     s->deviation = sqrt(variance);
+    if (!(s->reflected > 0))
+        s->unseen = unseen_light(p, &r->solve.hierarchy, &r->tally);
     s->chi_square = s->compared ? s->chi_square / (double)s->compared : 0;
     means_close(&m);
     free(rho);

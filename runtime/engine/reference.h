@@ -38,6 +38,7 @@ int reference_irradiance(const struct reference *r, enum reference_method method
 struct reference_summary {
     double emitted;                  /* W */
     double reflected;                /* W, by both */
+    double unseen;                   /* W, where that is 0: no more than so much is, 95 % */
     double noise[REFERENCE_METHODS]; /* sum of A rho times standard error of H, W */
     /* reflected by particles less by paths, and one standard error of that (W) */
     double difference, deviation;

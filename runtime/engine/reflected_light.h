@@ -1,4 +1,4 @@
-/* reflected_light.h - what all faces reflect by a tally.
+/* reflected_light.h - what all faces reflect by a tally, and what may be where none was seen.
  * SPDX-License-Identifier: MIT */
 #ifndef REFLECTED_LIGHT_H
 #define REFLECTED_LIGHT_H
@@ -8,26 +8,11 @@
 
 /* W, all bands, on all ranks; *variance: of that, by how replicates differ; where none of the
  * particles was reflected, though some may be, as if one more were. */
-static inline double reflected_light(const struct problem *p, const struct tally *tally,
-                                     double *variance)
-{
-    const double one = tally->by_paths || !tally->reach ? 0 : tally_power_of_one(tally);
-    double power[REPLICATES], mean = 0, square = 0;
-    for (int r = 0; r < REPLICATES; r++) {
-        power[r] = 0;
-        for (uint32_t f = 0; f < tally->faces; f++)
-            for (uint32_t k = 0; k < tally->bands && tally_holds(tally, f); k++)
-                power[r] +=
-                    p->reflectance[(size_t)f * tally->bands + k] * tally_face(tally, r, f, k);
-    }
-    if (tally->quarters)
-        ranks_add(p->options.ranks, RANKS_PARTICLES, power, REPLICATES);
-    for (int r = 0; r < REPLICATES; r++)
-        mean += power[r] / REPLICATES;
-    for (int r = 0; r < REPLICATES; r++)
-        square += (power[r] - mean) * (power[r] - mean);
-    *variance = mean > 0 ? square / (REPLICATES * (REPLICATES - 1)) : one * one;
-    return mean;
-}
+double reflected_light(const struct problem *p, const struct hierarchy *h,
+                       const struct tally *tally, double *variance);
+
+/* Where the tally has seen nothing reflected: no more than that is (W, all bands; by particles in
+ * 95 of 100 cases), 0: nothing is, that is sure. */
+double unseen_light(const struct problem *p, const struct hierarchy *h, const struct tally *tally);
 
 #endif

@@ -49,7 +49,6 @@ struct tally {
     uint64_t particles;    /* of each replicate, so far */
     uint64_t rays;         /* cast for them */
     double power;          /* of all emitters (W), all bands */
-    int reach;             /* 0: nothing of it is reflected, that is sure (lights_reach.h) */
     double one;            /* a count of so much is one particle at its full power */
     _Atomic int64_t *face; /* [REPLICATES][held * bands + band]: tally_place */
     _Atomic int64_t

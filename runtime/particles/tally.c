@@ -17,8 +17,7 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
                             .stream = stream,
                             .one = ONE_WHOLE,
                             .alone = t->threads == 1,
-                            .power = t->lights.power,
-                            .reach = t->lights.reach};
+                            .power = t->lights.power};
     const struct quarters *q = t->quarters && t->quarters->common ? t->quarters : NULL;
     size_t bands = t->bands;
     if (q) {

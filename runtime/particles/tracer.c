@@ -4,7 +4,6 @@
 #include "kernel/hemisphere.h"
 #include "kernel/lambert.h"
 #include "kernel/surface_point.h"
-#include "particles/lights_reach.h"
 #include "particles/running_sums.h"
 #include "particles/tracer.h"
 
@@ -37,7 +36,6 @@ int tracer_open(struct tracer *t)
             }
         }
     }
-    l->reach = lights_reach(t);
     if (light_tree_open(&t->light_tree, t->hierarchy, t->exitance, t->bands) == 0)
         return 0;
     tracer_close(t);

@@ -21,7 +21,6 @@ struct lights {
     double *until;  /* [count]: running sums of A sum_k E_k (W) */
     uint32_t count;
     double power; /* W, all bands */
-    int reach;    /* 0: nothing of it is reflected, that is sure (lights_reach.h) */
 };
 
 struct tracer {

@@ -121,12 +121,8 @@ static int by_particles(struct work *w)
         if (mend_and_measure(w, (uint64_t)rays, look) < 0)
             return -1;
         const double reached = reach(w->o, w->m);
-        if (isinf(reached)) {
-            if (rays >= UNSEEN_RAYS)
-                return w->a->why = unseen, 0;
-            rays = fmin(rays * LOOKS_MORE, UNSEEN_RAYS);
-            continue;
-        }
+        if (isinf(reached) && rays >= UNSEEN_RAYS)
+            return w->a->why = unseen, 0;
         const double ratio = reached / (AIM * wanted);
         /* how often as many rays there may be, and are to be */
         const double most = SURE_LEFT * rays_left(w, &why) / (double)(w->a->rays - before),
@@ -143,6 +139,8 @@ static int by_particles(struct work *w)
             rays = fmax(rays * times, FIRST_RAYS);
             look = 0;
         }
+        if (isinf(reached))
+            rays = fmin(rays, UNSEEN_RAYS);
     }
 }
 

@@ -289,23 +289,13 @@ static int differ(const struct run *r)
            || (faces >= FEW && p->chi_square > 1.5 + 4 * sqrt(2 / faces));
 }
 
-/* Is there a polygon that reflects? */
-static int may_reflect(const struct scene_file *f)
-{
-    for (uint32_t i = 0; i < f->polygon_count; i++)
-        for (int k = 0; k < 3; k++)
-            if (f->materials[f->polygon_materials[i]].reflectance[k] > 0)
-                return 1;
-    return 0;
-}
-
 /* Of nothing that was seen to be reflected. */
-static void print_dark(const struct RadReferenceReport *p, const struct scene_file *file)
+static void print_dark(const struct RadReferenceReport *p)
 {
-    if (p->emitted > 0 && may_reflect(file))
+    if (p->unseen > 0)
         printf("none of %.3g particles and %.3g paths tells of light that is reflected: there is "
                "less than about %.2g W\n",
-               (double)p->traced[0], (double)p->traced[1], 3 * p->emitted / (double)p->traced[0]);
+               (double)p->traced[0], (double)p->traced[1], p->unseen);
     else
         printf("nothing is reflected: B is E, exactly\n");
 }
@@ -319,7 +309,7 @@ static void print_summary(const struct run *r)
            r->scene->report.bands == 1 ? "" : "s", p->emitted, p->reflected,
            time_text(seconds() - r->start, text));
     if (!(p->reflected > 0)) {
-        print_dark(p, &r->scene->file);
+        print_dark(p);
         return;
     }
     printf("standard error of a face, mean by area, of the reflected light: %.3f %%\n"
