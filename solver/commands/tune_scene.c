@@ -72,6 +72,8 @@ int tune_scene_error(struct tune_scene *t, RadSolution solution, double target, 
     *error = e.l1_faces.value;
     return e.reflected > 0 ? 0
                            : report_error(t->scene.path, 0,
-                                          "no light is reflected, so that no error can be told; "
-                                          "give a scene with a lamp and surfaces that reflect");
+                                          "none of %.3g particles was reflected, so that no error "
+                                          "can be told; give a scene with a lamp and surfaces that "
+                                          "reflect its light",
+                                          (double)e.particles);
 }

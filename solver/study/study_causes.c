@@ -100,7 +100,7 @@ static void print_found(const char *scene, const struct options *o, const struct
     printf("%s, oracle %s: %llu links by %.3g rays, held against %.3g rays\n", scene, o->oracle,
            (unsigned long long)f->solve.links, (double)f->solve.rays, (double)r->rays);
     if (!(r->reflected > 0)) {
-        printf("no light is reflected\n\n");
+        printf("none of what was traced is reflected\n\n");
         return;
     }
     printf("%% of the light that is   links    rays  of one reflection          after all "
