@@ -952,7 +952,7 @@ RAD_API int radFindCauses(RadSolution solution, const struct RadCausesOptions *o
 /* A point of a face, and how many rays gather light there. */
 struct RadGatherPoint {
     uint32_t face;      /* of radGetSceneFaces */
-    double position[3]; /* m, in the face's plane */
+    double position[3]; /* m, on the face; refused where the scene's size from it */
     /* Points of one set share one sequence of directions, spread evenly over all of them: this one
      * takes numbers first .. first + rays - 1, below 2^32. Sets of other numbers are independent */
     uint64_t set;
@@ -1264,16 +1264,16 @@ RAD_API void radReleaseReference(RadReference reference);
 RAD_API int radTraceReference(RadReference reference, enum RadMethod method, uint64_t count);
 
 /* Area means of B over each polygon, both sides of two-sided ones, in one band, and one standard
- * error of each (W/m2); [RadSceneReport.polygons], the caller's; either may be NULL. 0 of polygons
- * without area. Returns 0, or -1. */
+ * error of each (W/m2), INFINITY where the method has traced nothing; [RadSceneReport.polygons],
+ * the caller's; either may be NULL. 0 of polygons without area. Returns 0, or -1. */
 RAD_API int radGetReferenceValues(RadReference reference, enum RadMethod method, uint32_t band,
                                   double *radiosity, double *deviation);
 
 /* Hold a solution of the same scene, mended or not, against the particles of a reference, as
- * radMeasureError does against particles of its own: power, l1_faces, noise, reflected, worst,
- * worst_share and worst_sure; rays are those of the reference. What radGetPolygonErrors tells
- * stays. Many solutions are best judged by one reference: its noise is the same for all. Returns 0,
- * or -1. */
+ * radMeasureError does against particles of its own: power, l1_faces, noise, reflected, unseen,
+ * bands, worst, worst_share and worst_sure; rays are those of the reference. What
+ * radGetPolygonErrors tells stays. Many solutions are best judged by one reference: its noise is
+ * the same for all. Returns 0, or -1. */
 RAD_API int radMeasureErrorBy(RadSolution solution, RadReference reference,
                               struct RadErrorReport *report);
 
@@ -1283,9 +1283,11 @@ struct RadReferenceReport {
     /* where nothing was seen to be reflected: no more than that is (W, 95 %); 0: nothing is */
     double unseen;
     /* standard errors of B, mean by area, as shares of the reflected light: by particles, by paths,
-     * by both; 0 where nothing is reflected */
+     * by both; 0 where nothing is reflected, INFINITY where nothing is known: not traced, or unseen
+     * above 0 */
     double noise[RAD_METHODS];
-    /* light reflected by particles less by paths, and one standard error of that, as shares */
+    /* light reflected by particles less by paths, and one standard error of that, as shares; 0 and
+     * INFINITY unless both are traced */
     double difference, deviation;
     /* squares of their differences over those expected, mean over polygons and bands that both
      * know well: about 1 where only chance parts them; from so many */

@@ -137,10 +137,13 @@ int api_solve(RadSolution solution, int may_end);
 /* Is there light to be looked at? Returns 0, or -1 with the device told that `what` needs it. */
 int api_solved(RadSolution solution, const char *what);
 
+/* What of a report is about faces, the rest 0. */
+struct RadErrorReport api_face_report(const struct face_error *f);
+
 /* The code of a cause that the engine gives as a constant string. */
 enum RadError api_cause(const char *cause);
 
-/* Is every number finite? */
-int api_finite(const double *values, size_t count);
+/* Is it a place, no farther out than corners may be (3.4e38 m)? */
+int api_place(const double place[3]);
 
 #endif

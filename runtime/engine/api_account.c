@@ -48,22 +48,12 @@ int radAccountErrors(RadSolution solution, const struct RadAccountOptions *given
     static const struct RadAccountOptions defaults;
     const struct RadAccountOptions *o = given ? given : &defaults;
     double start = seconds();
-    if (!solution)
+    if (api_solved(solution, "radAccountErrors") < 0)
         return -1;
     RadDevice device = solution->scene->device;
-    if (api_needs(device, report, "radAccountErrors needs a place") < 0)
-        return -1;
     struct solve *s = &solution->solve;
-    if (api_alone(device, "radAccountErrors") < 0)
-        return -1;
-    if (solution->dead || s->report.passes == 0)
-        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
-                        "radAccountErrors needs a solution that was solved: radSolve comes first");
-    if (s->problem.options.unit)
-        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
-                        "radAccountErrors needs radiosities; with RadSolveOptions.unit there are "
-                        "none");
-    if (check_options(device, o) < 0)
+    if (api_needs(device, report, "radAccountErrors needs a place") < 0
+        || api_alone(device, "radAccountErrors") < 0 || check_options(device, o) < 0)
         return -1;
     struct account_watch w = {solution, 0};
     struct error_account account = {

@@ -10,19 +10,13 @@ int radFindCauses(RadSolution solution, const struct RadCausesOptions *given,
     static const struct RadCausesOptions defaults;
     const struct RadCausesOptions *o = given ? given : &defaults;
     double start = seconds();
-    if (api_not_dead(solution) < 0
-        || api_needs(solution->scene->device, report, "radFindCauses needs a place") < 0)
+    if (api_solved(solution, "radFindCauses") < 0)
         return -1;
     RadDevice device = solution->scene->device;
     struct solve *s = &solution->solve;
-    if (api_alone(device, "radFindCauses") < 0)
+    if (api_needs(device, report, "radFindCauses needs a place") < 0
+        || api_alone(device, "radFindCauses") < 0)
         return -1;
-    if (s->report.passes == 0)
-        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
-                        "radFindCauses needs a solution: radSolve or radStep comes first");
-    if (s->problem.options.unit)
-        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
-                        "radFindCauses needs the scene's own light; RadSolveOptions.unit has none");
     if (s->problem.options.linear)
         return api_fail(device, RAD_ERROR_INVALID_OPERATION,
                         "radFindCauses knows constants alone: RAD_BASIS_CONSTANT");

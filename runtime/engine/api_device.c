@@ -1,5 +1,6 @@
 /* api_device.c - devices: the first error since it was asked for, messages and progress.
  * SPDX-License-Identifier: MIT */
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -198,10 +199,10 @@ enum RadError api_cause(const char *cause)
                                                        : RAD_ERROR_OUT_OF_MEMORY;
 }
 
-int api_finite(const double *values, size_t count)
+int api_place(const double place[3])
 {
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(values[i]))
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(place[k]) <= (double)FLT_MAX))
             return 0;
     return 1;
 }

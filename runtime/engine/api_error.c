@@ -19,30 +19,36 @@ static uint64_t least_rays(RadSolution solution, int surfaces)
     return scene > polygons ? scene : polygons;
 }
 
+struct RadErrorReport api_face_report(const struct face_error *f)
+{
+    struct RadErrorReport r = {.power = f->power,
+                               .l1_faces = f->l1,
+                               .noise = f->noise,
+                               .reflected = f->reflected,
+                               .unseen = f->unseen,
+                               .worst = f->worst,
+                               .worst_share = f->worst_share,
+                               .worst_sure = f->worst_sure};
+    memcpy(r.band_light, f->band_light, sizeof r.band_light);
+    memcpy(r.band_noise, f->band_noise, sizeof r.band_noise);
+    return r;
+}
+
 static struct RadErrorReport report_of(const struct measured_error *m)
 {
-    struct RadErrorReport r = {.power = m->faces.power,
-                               .l1_faces = m->faces.l1,
-                               .l2 = m->l2,
-                               .p999 = m->p999,
-                               .noise = m->faces.noise,
-                               .reflected = m->faces.reflected,
-                               .unseen = m->faces.unseen,
-                               .worst = m->faces.worst,
-                               .worst_share = m->faces.worst_share,
-                               .worst_sure = m->faces.worst_sure,
-                               .backs = m->backs.share,
-                               .back = m->backs.most,
-                               .back_share = m->backs.most_share,
-                               .large = m->dim.large,
-                               .gathered = m->gathered,
-                               .unsure = m->dim.unsure,
-                               .rays = m->rays,
-                               .particles = m->particles,
-                               .by_paths = (uint32_t)m->by_paths,
-                               .seconds = m->seconds};
-    memcpy(r.band_light, m->faces.band_light, sizeof r.band_light);
-    memcpy(r.band_noise, m->faces.band_noise, sizeof r.band_noise);
+    struct RadErrorReport r = api_face_report(&m->faces);
+    r.l2 = m->l2;
+    r.p999 = m->p999;
+    r.backs = m->backs.share;
+    r.back = m->backs.most;
+    r.back_share = m->backs.most_share;
+    r.large = m->dim.large;
+    r.gathered = m->gathered;
+    r.unsure = m->dim.unsure;
+    r.rays = m->rays;
+    r.particles = m->particles;
+    r.by_paths = (uint32_t)m->by_paths;
+    r.seconds = m->seconds;
     memcpy(r.unsure_named, m->dim.named, sizeof r.unsure_named);
     return r;
 }

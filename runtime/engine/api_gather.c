@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "engine/api.h"
 #include "engine/solve_tracer.h"
+#include "geometry.h"
 #include "particles/gather.h"
 #include "util/thread_pool.h"
 
@@ -11,16 +12,25 @@ static const uint64_t GATHER_STREAM = (uint64_t)0x676174 << 40;
 static int check_points(RadSolution solution, const struct RadGatherPoint *points, size_t count)
 {
     RadDevice device = solution->scene->device;
-    uint32_t faces = solution->solve.hierarchy.face_count;
+    const struct hierarchy *h = &solution->solve.hierarchy;
+    const uint32_t faces = h->face_count;
     for (size_t i = 0; i < count; i++) {
         const struct RadGatherPoint *p = &points[i];
         if (p->face >= faces)
             return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                             "point %zu of %zu is of face %u; there are %u, from 0", i, count,
                             (unsigned)p->face, (unsigned)faces);
-        if (!api_finite(p->position, 3))
+        if (!api_place(p->position))
             return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                             "point %zu of %zu is at no finite place", i, count);
+        /* Embree ends the program where a ray comes from beyond its numbers */
+        const struct element *e = &h->elements[h->face_element[p->face]];
+        if (polygon_distance(p->position, e->vertex, e->vertices, e->normal)
+            > h->elements[0].radius)
+            return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                            "point %zu of %zu is farther from its face, %u, than the scene is "
+                            "large",
+                            i, count, (unsigned)p->face);
         if (p->rays == 0 || p->rays > UINT32_MAX - p->first)
             return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                             "point %zu of %zu has %u rays from number %u; it takes one or more, "

@@ -43,9 +43,10 @@ int radGetPointFactors(RadScene scene, uint32_t count, const double *position, c
                         (unsigned)scene->scene.input_count + 2);
     for (size_t i = 0; i < count; i++) {
         double size = length3(&normal[3 * i]);
-        if (!api_finite(&position[3 * i], 3) || !(size > 0) || !isfinite(size))
+        if (!api_place(&position[3 * i]) || !(size > 0) || !isfinite(size))
             return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
-                            "point %u needs a finite position and a normal that is not 0",
+                            "point %u needs a finite position, within 3.4e38, and a normal that is "
+                            "not 0",
                             (unsigned)i);
     }
     atomic_int failed;

@@ -150,7 +150,8 @@ int radGetReferenceValues(RadReference r, enum RadMethod method, uint32_t band, 
         if (radiosity)
             radiosity[input] = p->exitance[at] + p->reflectance[at] * mean[input];
         if (deviation)
-            deviation[input] = p->reflectance[at] * sqrt(variance[input]);
+            deviation[input] =
+                p->reflectance[at] > 0 ? p->reflectance[at] * sqrt(variance[input]) : 0;
     }
     free(mean);
     return 0;
@@ -158,7 +159,7 @@ int radGetReferenceValues(RadReference r, enum RadMethod method, uint32_t band, 
 
 int radMeasureErrorBy(RadSolution solution, RadReference r, struct RadErrorReport *report)
 {
-    if (not_dead(r) < 0 || api_not_dead(solution) < 0
+    if (not_dead(r) < 0 || api_solved(solution, "radMeasureErrorBy") < 0
         || api_needs(r->scene->device, report, "radMeasureErrorBy needs a place") < 0)
         return -1;
     RadDevice device = solution->scene->device;
@@ -166,25 +167,23 @@ int radMeasureErrorBy(RadSolution solution, RadReference r, struct RadErrorRepor
     if (solution->scene != r->scene)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "the reference is of another scene than the solution");
-    if (solution->solve.report.passes == 0 || tally->particles == 0)
+    if (tally->particles == 0)
         return api_fail(device, RAD_ERROR_INVALID_OPERATION,
-                        "radMeasureErrorBy needs a solution and particles: radSolve or radStep, "
-                        "and radTraceReference come first");
+                        "radMeasureErrorBy needs particles: radTraceReference comes first");
     struct solve *s = &solution->solve;
     struct face_error f;
     if (face_error_open(&f, &s->problem, &s->hierarchy, solve_shown(s)->irradiance, tally) < 0)
         return api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for errors of polygons");
-    *report = (struct RadErrorReport){.power = f.power,
-                                      .l1_faces = f.l1,
-                                      .noise = f.noise,
-                                      .reflected = f.reflected,
-                                      .worst = f.worst,
-                                      .worst_share = f.worst_share,
-                                      .worst_sure = f.worst_sure,
-                                      .rays = tally->rays,
-                                      .particles = tally->particles * REPLICATES};
+    *report = api_face_report(&f);
+    report->rays = tally->rays;
+    report->particles = tally->particles * REPLICATES;
     face_error_close(&f);
     return 0;
+}
+
+static double share_of(double power, double share)
+{
+    return isinf(power) ? power : share * power;
 }
 
 int radGetReferenceReport(RadReference r, struct RadReferenceReport *report)
@@ -197,7 +196,7 @@ int radGetReferenceReport(RadReference r, struct RadReferenceReport *report)
     if (reference_summary(x, &s) < 0)
         return api_fail(r->scene->device, RAD_ERROR_OUT_OF_MEMORY,
                         "out of memory for the report of a reference");
-    double share = s.reflected > 0 ? 1 / s.reflected : 0;
+    const double share = s.reflected > 0 ? 1 / s.reflected : 0;
     *report =
         (struct RadReferenceReport){.traced = {x->tally.particles * REPLICATES, x->paths.paths},
                                     .rays = {x->tally.rays, x->paths.rays},
@@ -205,11 +204,11 @@ int radGetReferenceReport(RadReference r, struct RadReferenceReport *report)
                                     .reflected = s.reflected,
                                     .unseen = s.unseen,
                                     .difference = share * s.difference,
-                                    .deviation = share * s.deviation,
+                                    .deviation = share_of(s.deviation, share),
                                     .chi_square = s.chi_square,
                                     .compared = s.compared};
     for (int i = 0; i < RAD_METHODS; i++)
-        report->noise[i] = share * s.noise[i];
+        report->noise[i] = share_of(s.noise[i], share);
     return 0;
 }
 

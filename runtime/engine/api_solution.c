@@ -52,8 +52,9 @@ static int near(double value, double wanted)
 
 static int check_camera(RadDevice device, const struct RadCamera *c)
 {
-    if (!api_finite(c->eye, 3))
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "the camera's eye is not finite");
+    if (!api_place(c->eye))
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "the camera's eye is not finite, or beyond 3.4e38");
     if (!near(dot(c->right, c->right), 1) || !near(dot(c->up, c->up), 1)
         || !near(dot(c->ahead, c->ahead), 1) || !near(dot(c->right, c->up), 0)
         || !near(dot(c->up, c->ahead), 0) || !near(dot(c->ahead, c->right), 0))

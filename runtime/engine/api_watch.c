@@ -131,9 +131,9 @@ int radFindFaceAt(RadSolution solution, const double point[3], uint32_t *element
         return -1;
     const struct hierarchy *h = &solution->solve.hierarchy;
     double nearest = INFINITY;
-    if (!api_finite(point, 3))
+    if (!api_place(point))
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
-                        "the point is not finite");
+                        "the point is not finite, or beyond 3.4e38");
     for (uint32_t i = 0; i < h->face_count; i++) {
         const struct element *e = &h->elements[h->face_element[i]];
         const double d = h->faces[i].back

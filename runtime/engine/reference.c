@@ -246,6 +246,12 @@ static struct known weigh(const struct reference *r, const struct means *m, size
     return k;
 }
 
+static int is_traced(const struct reference *r, enum reference_method method)
+{
+    return (method != REFERENCE_PATHS && r->tally.particles > 0)
+           || (method != REFERENCE_PARTICLES && r->paths.paths > 0);
+}
+
 int reference_irradiance(const struct reference *r, enum reference_method method, uint32_t band,
                          double *mean, double *variance)
 {
@@ -254,16 +260,32 @@ int reference_irradiance(const struct reference *r, enum reference_method method
     if (means_open(&m, count) < 0)
         return -1;
     gather(r, band, &m);
+    const int traced = is_traced(r, method);
     for (size_t i = 0; i < count; i++) {
         const struct known k = weigh(r, &m, i, band);
         mean[i] = k.mean[method];
-        variance[i] = k.variance[method];
+        variance[i] = traced ? k.variance[method] : INFINITY;
     }
     means_close(&m);
     return 0;
 }
 
 /* ---- the whole */
+
+/* What was not traced tells nothing, nor what has seen nothing where there may be something. */
+static void doubt(const struct reference *r, struct reference_summary *s)
+{
+    if (!(s->reflected > 0))
+        s->unseen = unseen_light(&r->solve.problem, &r->solve.hierarchy, &r->tally);
+    for (int way = 0; way < REFERENCE_METHODS; way++)
+        if (s->unseen > 0 || !is_traced(r, (enum reference_method)way))
+            s->noise[way] = INFINITY;
+    if (!is_traced(r, REFERENCE_PARTICLES) || !is_traced(r, REFERENCE_PATHS)) {
+        s->difference = s->chi_square = 0;
+        s->deviation = INFINITY;
+        s->compared = 0;
+    }
+}
 
 int reference_summary(const struct reference *r, struct reference_summary *s)
 {
@@ -309,9 +331,8 @@ int reference_summary(const struct reference *r, struct reference_summary *s)
     for (size_t i = 0; i < count; i++)
         variance += deviation[i] * deviation[i];
     s->deviation = sqrt(variance);
-    if (!(s->reflected > 0))
-        s->unseen = unseen_light(p, &r->solve.hierarchy, &r->tally);
     s->chi_square = s->compared ? s->chi_square / (double)s->compared : 0;
+    doubt(r, s);
     means_close(&m);
     free(rho);
     free(deviation);

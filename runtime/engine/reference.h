@@ -30,17 +30,19 @@ void reference_close(struct reference *r);
 
 /* Area means of irradiance over polygons, both sides of two-sided ones, in one band, and the
  * variances of these means; [input_count] each (W/m2, squared). By both methods: weighted by
- * what is known of either's noise. Returns 0, or -1 when out of memory. */
+ * what is known of either's noise. INFINITY: the method has traced nothing. Returns 0, or -1 when
+ * out of memory. */
 int reference_irradiance(const struct reference *r, enum reference_method method, uint32_t band,
                          double *mean, double *variance);
 
 /* The whole, all bands. */
 struct reference_summary {
-    double emitted;                  /* W */
-    double reflected;                /* W, by both */
-    double unseen;                   /* W, where that is 0: no more than so much is, 95 % */
-    double noise[REFERENCE_METHODS]; /* sum of A rho times standard error of H, W */
-    /* reflected by particles less by paths, and one standard error of that (W) */
+    double emitted;   /* W */
+    double reflected; /* W, by both */
+    double unseen;    /* W, where that is 0: no more than so much is, 95 % */
+    /* sum of A rho times standard error of H (W); INFINITY where nothing is known */
+    double noise[REFERENCE_METHODS];
+    /* reflected by particles less by paths, and one standard error of that (W); likewise */
     double difference, deviation;
     /* (h - h')^2 over its variance, mean over polygons and bands that both know well: 1, but for
      * chance, and a little more where replicates are few */

@@ -86,7 +86,7 @@ double unseen_light(const struct problem *p, const struct hierarchy *h, const st
         whitest = fmax(whitest, p->whitest[f]);
     if (!(tally->power > 0) || !lights_reach(p, h))
         return 0;
-    const double comes =
-        tally->by_paths ? tally->power : fmin(3 * tally_power_of_one(tally), tally->power);
+    const int counted = !tally->by_paths && tally->particles > 0;
+    const double comes = counted ? fmin(3 * tally_power_of_one(tally), tally->power) : tally->power;
     return comes * whitest / (1 - whitest);
 }

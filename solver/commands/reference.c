@@ -16,6 +16,7 @@
 #include <unistd.h>
 #include "commands/commands.h"
 #include "output/json_file.h"
+#include "output/json_values.h"
 #include "util/atomic_file.h"
 #include "util/clock.h"
 #include "util/device.h"
@@ -31,6 +32,8 @@ enum { LAG = 8 };
 static const uint64_t CHUNK = 1 << 17; /* paths, or half the particles, between looks at signals */
 static const double SAVE_EVERY = 10;   /* s; and no more than a twentieth of the time */
 static const double FORETELL = 2;      /* s, after which the time that it will take is told */
+/* of a run that sees nothing reflected: chosen, some seconds */
+static const uint64_t UNSEEN_RAYS = 1 << 24;
 
 struct run {
     const struct options *options;
@@ -97,9 +100,14 @@ static int load(struct run *r)
     if (radGetReferenceReport(r->reference, &r->report) < 0)
         return report_device(device, r->scene->path);
     r->loaded = r->report.rays[0] + r->report.rays[1];
-    if (!r->options->quiet)
-        printf("goes on from %s: %.3g particles, %.3g paths, %.2g %%\n", r->state,
-               (double)r->report.traced[0], (double)r->report.traced[1], 100 * noise_of(r));
+    if (r->options->quiet)
+        return 0;
+    printf("goes on from %s: %.3g particles, %.3g paths, ", r->state, (double)r->report.traced[0],
+           (double)r->report.traced[1]);
+    if (isfinite(noise_of(r)))
+        printf("%.2g %%\n", 100 * noise_of(r));
+    else
+        printf("which saw nothing\n");
     return 0;
 }
 
@@ -111,7 +119,7 @@ static double time_left(const struct run *r)
     double rays = (double)(r->report.rays[0] + r->report.rays[1]);
     double ratio = noise_of(r) / r->options->noise;
     double mine = rays - (double)r->loaded, gone = seconds() - r->start;
-    return mine > 0 && ratio > 1 ? rays * (ratio * ratio - 1) * gone / mine : 0;
+    return mine > 0 && ratio > 1 && isfinite(ratio) ? rays * (ratio * ratio - 1) * gone / mine : 0;
 }
 
 static const char *time_text(double s, char text[32])
@@ -131,7 +139,7 @@ static int show_progress(void *context, const struct RadProgress *at)
 {
     struct run *r = context;
     char gone[32], left[32];
-    if (!(noise_of(r) > 0))
+    if (!(noise_of(r) > 0) || isinf(noise_of(r)))
         progress_say(&r->progress, "%s, %s", at->phase, time_text(seconds() - r->start, gone));
     else
         progress_say(&r->progress, "%s: %.2g %% so far, %.2g %% asked for; %s, %s to go", at->phase,
@@ -203,7 +211,15 @@ static int trace(struct run *r, enum RadMethod method, uint64_t wanted)
     return 0;
 }
 
-/* Returns 0 when the noise is what was asked for, STOPPED, or 1 after a message. */
+/* Has nothing been seen by so many rays of this run that no more are cast? */
+static int is_given_up(const struct run *r)
+{
+    const uint64_t rays = r->report.rays[0] + r->report.rays[1] - r->loaded;
+    return r->report.unseen > 0 && rays >= UNSEEN_RAYS;
+}
+
+/* Returns 0 when the noise is what was asked for, or nothing is seen, STOPPED, or 1 after a
+ * message. */
 static int trace_all(struct run *r)
 {
     int step[2] = {0, 0};
@@ -218,7 +234,7 @@ static int trace_all(struct run *r)
         }
         if (radGetReferenceReport(r->reference, &r->report) < 0)
             return report_device(r->scene->device, r->scene->path) ? 1 : 0;
-        if (!(noise_of(r) > r->options->noise))
+        if (!(noise_of(r) > r->options->noise) || is_given_up(r))
             return 0;
         foretell(r);
         step[next_method(r, step)]++;
@@ -294,7 +310,7 @@ static void print_dark(const struct RadReferenceReport *p)
 {
     if (p->unseen > 0)
         printf("none of %.3g particles and %.3g paths tells of light that is reflected: there is "
-               "less than about %.2g W\n",
+               "less than about %.2g W; the same command looks on\n",
                (double)p->traced[0], (double)p->traced[1], p->unseen);
     else
         printf("nothing is reflected: B is E, exactly\n");
@@ -328,14 +344,15 @@ static json_t *reference_json(const struct run *r)
 {
     const struct RadReferenceReport *p = &r->report;
     return json_pack(
-        "{s:I, s:I, s:f, s:f, s:f, s:{s:f, s:f, s:f}, s:{s:I, s:I}, s:{s:I, s:I}, s:f, s:f, s:f, "
-        "s:I, s:b, s:f}",
+        "{s:I, s:I, s:f, s:f, s:f, s:f, s:{s:o, s:o, s:o}, s:{s:I, s:I}, s:{s:I, s:I}, s:f, s:o, "
+        "s:f, s:I, s:b, s:f}",
         "faces", (json_int_t)r->scene->report.polygons, "bands", (json_int_t)r->scene->report.bands,
-        "emitted", p->emitted, "reflected", p->reflected, "accuracy", r->options->noise,
-        "standard_error", "particles", p->noise[0], "paths", p->noise[1], "both", p->noise[2],
-        "traced", "particles", (json_int_t)p->traced[0], "paths", (json_int_t)p->traced[1], "rays",
-        "particles", (json_int_t)p->rays[0], "paths", (json_int_t)p->rays[1], "difference",
-        p->difference, "difference_error", p->deviation, "chi_square", p->chi_square, "compared",
+        "emitted", p->emitted, "reflected", p->reflected, "unseen", p->unseen, "accuracy",
+        r->options->noise, "standard_error", "particles", json_finite(p->noise[0]), "paths",
+        json_finite(p->noise[1]), "both", json_finite(p->noise[2]), "traced", "particles",
+        (json_int_t)p->traced[0], "paths", (json_int_t)p->traced[1], "rays", "particles",
+        (json_int_t)p->rays[0], "paths", (json_int_t)p->rays[1], "difference", p->difference,
+        "difference_error", json_finite(p->deviation), "chi_square", p->chi_square, "compared",
         (json_int_t)p->compared, "agree", !differ(r), "seconds", seconds() - r->start);
 }
 
@@ -350,7 +367,8 @@ static int finish(struct run *r)
         return 1;
     }
     int failed = 0;
-    if (o->keep)
+    const int unknown = r->report.unseen > 0;
+    if (o->keep || unknown)
         failed = save(r) < 0;
     else
         (void)unlink(r->state);
@@ -360,7 +378,8 @@ static int finish(struct run *r)
         report_warning(o->out, 0,
                        "particles and paths differ by more than chance: one of them is wrong on "
                        "this scene; trust neither beyond their difference");
-    return failed || (o->json && json_file_write(o->json, reference_json(r)) < 0);
+    failed = failed || (o->json && json_file_write(o->json, reference_json(r)) < 0);
+    return failed ? 1 : unknown ? 3 : 0;
 }
 
 static int run(struct run *r)

@@ -323,7 +323,8 @@ END_TEST
 
 START_TEST(test_errors)
 {
-    const double x[3] = {1, 1, 1}, zero[3] = {0}, up[3] = {0, 0, 1}, bad[3] = {NAN, 0, 0};
+    const double x[3] = {1, 1, 1}, zero[3] = {0}, up[3] = {0, 0, 1}, bad[3] = {NAN, 0, 0},
+                 beyond[3] = {0, 0, 1e300};
     struct soup *s = soup_new();
     add_room(s);
     RadScene scene = commit(s), early = radNewScene(device);
@@ -334,6 +335,7 @@ START_TEST(test_errors)
     ck_assert_int_eq(radGetPointFactors(scene, 1, x, zero, row), -1);
     ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_INVALID_ARGUMENT);
     ck_assert_int_eq(radGetPointFactors(scene, 1, bad, up, row), -1);
+    ck_assert_int_eq(radGetPointFactors(scene, 1, beyond, up, row), -1);
     ck_assert_int_eq(radGetPointFactors(scene, 1, x, up, NULL), -1);
     ck_assert_int_eq(radGetPointFactors(scene, 0, NULL, NULL, NULL), 0);
     (void)radGetDeviceError(device);

@@ -419,6 +419,34 @@ START_TEST(nothing_to_find)
 }
 END_TEST
 
+/* What was not traced is not known, nor is the difference of one method from nothing. */
+START_TEST(not_traced)
+{
+    struct scene scene;
+    struct reference r;
+    struct reference_summary s;
+    double mean[16], variance[16];
+    const int particles = _i & 1, paths = _i >> 1;
+    const int known[REFERENCE_METHODS] = {particles, paths, particles || paths};
+    read_file(&scene, "examples/scenes/furnace.obj");
+    open_reference(&r, &scene, 2);
+    trace(&r, particles ? 1 << 14 : 0, paths ? 1 << 12 : 0);
+    ck_assert_int_eq(reference_summary(&r, &s), 0);
+    for (int way = 0; way < REFERENCE_METHODS; way++) {
+        ck_assert_int_eq(isfinite(s.noise[way]), known[way]);
+        ck_assert_int_eq(reference_irradiance(&r, (enum reference_method)way, 0, mean, variance),
+                         0);
+        ck_assert_int_eq(isfinite(variance[0]), known[way]);
+    }
+    ck_assert_int_eq(isfinite(s.deviation), particles && paths);
+    ck_assert(s.compared == 0 || (particles && paths));
+    ck_assert_int_eq(s.unseen > 0, !particles && !paths);
+    ck_assert_double_le(s.unseen, s.emitted);
+    reference_close(&r);
+    scene_free(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("reference");
@@ -431,6 +459,7 @@ int main(void)
     tcase_add_test(c, as_others_find);
     tcase_add_test(c, same_bits);
     tcase_add_test(c, nothing_to_find);
+    tcase_add_loop_test(c, not_traced, 0, 4);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -280,6 +280,9 @@ START_TEST(what_is_refused)
     solve_file(&s, "examples/scenes/furnace.obj", "ff", NULL);
     check_refused(&s, &(struct RadGatherPoint){6, {0, 0, 0}, 0, 0, 1}, "face 6; there are 6");
     check_refused(&s, &(struct RadGatherPoint){0, {NAN, 0, 0}, 0, 0, 1}, "finite");
+    check_refused(&s, &(struct RadGatherPoint){0, {0.5, 0.5, 1e300}, 0, 0, 1}, "finite");
+    check_refused(&s, &(struct RadGatherPoint){0, {0.5, 0.5, 1e38}, 0, 0, 1}, "farther");
+    check_refused(&s, &(struct RadGatherPoint){0, {0.5, 0.5, -3}, 0, 0, 1}, "farther");
     check_refused(&s, &(struct RadGatherPoint){0, {0, 0, 0}, 0, 0, 0}, "0 rays");
     check_refused(&s, &(struct RadGatherPoint){0, {0, 0, 0}, 0, UINT32_MAX, 2}, "below 2^32");
     check_refused(&s, NULL, "needs points");

@@ -23,7 +23,7 @@ BEGIN {
 END2
 awk -f "$top/tests/solver/box.awk" -f room.awk >room.obj
 
-count=$((count + 7))
+count=$((count + 10))
 "$radiosity" solve room.obj --json json >out 2>err || failed "solve: $(tail -n 1 err)"
 grep -q '^error     not known: none of .* particles was reflected; less than about .* W is$' out || failed "summary: $(grep '^error' out)"
 grep -q 'warning: none of .* nothing is known but that' err || failed "warning: $(cat err)"
@@ -35,4 +35,9 @@ status=$?
 "$radiosity" solve room.obj --accuracy l2:1% >out 2>err
 status=$?
 { [ $status = 3 ] && grep -q '^accuracy .*NOT kept' out; } || failed "accuracy over the surfaces: $status, $(tail -n 2 out)"
+"$radiosity" reference room.obj --accuracy 1% -o r.csv --json json >out 2>err
+status=$?
+{ [ $status = 3 ] && grep -q '^none of .* particles and .* paths tells of light' out; } || failed "reference: $status, $(tail -n 1 out)"
+{ [ "$(grep -c '"\(particles\|paths\|both\)": null' json)" = 3 ] && grep -q '"unseen": [0-9.]*e-' json; } || failed "reference, json: $(grep unseen json)"
+{ [ -s r.csv ] && [ -s r.csv.state ]; } || failed "reference: what it took is lost"
 finish unseen
