@@ -93,9 +93,8 @@ struct standing {
     const char *folder;
     const struct c_file *files;
     int count;
+    volatile sig_atomic_t compiler; /* its process; 0: none */
 };
-
-static volatile sig_atomic_t compiler_running; /* its process; 0: none */
 
 /* When a signal ends us: the compiler ends first, or it would write there behind us, and has files
  * of its own to remove. */
@@ -103,7 +102,7 @@ static void remove_standing(const void *of)
 {
     const struct standing *s = of;
     const struct timespec moment = {0, 10000000}; /* ns */
-    const pid_t child = compiler_running;
+    const pid_t child = s->compiler;
     int patience = 100; /* moments */
     if (child > 0)
         kill(child, SIGTERM);
@@ -112,9 +111,10 @@ static void remove_standing(const void *of)
     remove_all(s->folder, s->files, s->count);
 }
 
-/* Runs a program, its output going to a file. Its status; -1 with errno when it did not end by
- * itself. */
-static int run(char *const arguments[], const char *output)
+/* Runs a program, its output going to a file; *running names it meanwhile. Its status; -1 with
+ * errno when it did not end by itself. Where the host ignores SIGCHLD, nobody learns it, and it is
+ * 0. */
+static int run(char *const arguments[], const char *output, volatile sig_atomic_t *running)
 {
     posix_spawn_file_actions_t actions;
     pid_t child = 0;
@@ -133,13 +133,13 @@ static int run(char *const arguments[], const char *output)
         return -1;
     }
     int status, known;
-    compiler_running = child;
+    *running = child;
     do
         known = waitpid(child, &status, 0) == child;
     while (!known && errno == EINTR);
-    compiler_running = 0;
+    *running = 0;
     if (!known)
-        return -1;
+        return errno == ECHILD ? 0 : -1;
     errno = EINTR; /* by a signal */
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -181,9 +181,9 @@ static int split(char *text, const char *words[WORDS_MAX])
     return count;
 }
 
-static int compile(const char *folder, char sources[SOURCES_MAX][PATH_SIZE], int source_count,
-                   const char *library, const char *const *flags, const char *command,
-                   char *message, size_t size)
+static int compile(struct standing *standing, char sources[SOURCES_MAX][PATH_SIZE],
+                   int source_count, const char *library, const char *const *flags,
+                   const char *command, char *message, size_t size)
 {
     static const char *const fixed[] = {"-std=c11", "-shared", "-fPIC", "-Wl,-Bsymbolic",
                                         "-ffp-contract=off"};
@@ -204,11 +204,11 @@ static int compile(const char *folder, char sources[SOURCES_MAX][PATH_SIZE], int
         arguments[count++] = sources[i];
     arguments[count++] = "-lm";
     arguments[count] = NULL;
-    snprintf(include, sizeof include, "-I%s", folder);
-    if (!path_of(output, folder, output_name))
+    snprintf(include, sizeof include, "-I%s", standing->folder);
+    if (!path_of(output, standing->folder, output_name))
         return -1;
-    int status = run((char *const *)(void *)arguments, output);
-    if (status == 0)
+    int status = run((char *const *)(void *)arguments, output, &standing->compiler);
+    if (status == 0 && access(library, F_OK) == 0)
         return 0;
     if (status < 0)
         snprintf(message, size,
@@ -232,7 +232,7 @@ void *dag_compile(const struct c_file *files, int count, const char *const *flag
     void *handle = NULL;
     int length = snprintf(folder, sizeof folder, "%s/dagc.XXXXXX", parent), bad = 0, count_c = 0;
     errno = ENAMETOOLONG;
-    struct standing standing = {folder, files, count};
+    struct standing standing = {folder, files, count, 0};
     struct tidy tidy = {remove_standing, &standing, NULL};
     dag_tidy_hold();
     const int made = length < (int)sizeof folder && mkdtemp(folder) != NULL;
@@ -253,7 +253,7 @@ void *dag_compile(const struct c_file *files, int count, const char *const *flag
     if (bad || !path_of(library, folder, library_name))
         snprintf(message, size, "cannot write to %s: %s; set TMPDIR to another place", folder,
                  strerror(errno));
-    else if (compile(folder, sources, count_c, library, flags, command, message, size) == 0) {
+    else if (compile(&standing, sources, count_c, library, flags, command, message, size) == 0) {
         handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
         if (handle == NULL)
             snprintf(message, size, "cannot load what was compiled: %s", dlerror());

@@ -245,7 +245,7 @@ RadOracle radLoadOracleReplaced(RadDevice device, const char *path, const char *
 int radListOracleFiles(const char *path, int (*each)(void *user, const char *path), void *user)
 {
     const struct dag_options options = {0};
-    struct dag *dag = path ? dag_load_with(path, &options, NULL) : NULL;
+    struct dag *dag = path && each ? dag_load_with(path, &options, NULL) : NULL;
     int result = 0;
     for (int i = 0; dag && i < dag->source_count && !result; i++)
         if (dag->sources[i].on_disk)
@@ -378,12 +378,14 @@ enum decision radAskOracle(RadOracle oracle, struct discussion *discussion)
 
 void radAskOracles(RadOracle oracle, struct discussion *block, int count, enum decision *decisions)
 {
-    if (oracle && oracle->refiner->wave && count > 0) {
+    if (!decisions)
+        return;
+    if (oracle && block && oracle->refiner->wave && count > 0) {
         oracle->refiner->wave(oracle->refiner->state, block, count, decisions);
         return;
     }
     for (int i = 0; i < count; i++)
-        decisions[i] = radAskOracle(oracle, &block[i]);
+        decisions[i] = radAskOracle(oracle, block ? &block[i] : NULL);
 }
 
 int radCountOracle(RadOracle oracle)

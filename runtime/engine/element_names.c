@@ -103,7 +103,7 @@ static int find_face(uint32_t *element, const struct hierarchy *h, const uint32_
         fronts += !f->back;
         if ((f->back != 0) != back)
             continue;
-        if (has_part ? parts[i] == part + 1 : !parts[i]) {
+        if (has_part ? parts[i] && parts[i] - 1 == part : !parts[i]) {
             *element = h->face_element[i];
             return 0;
         }

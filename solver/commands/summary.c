@@ -26,16 +26,6 @@ static double imbalance(const struct RadReport *r)
     return r->emitted > 0 ? (r->emitted - r->absorbed) / r->emitted : 0;
 }
 
-static json_t *parameters_json(RadOracle oracle, const struct RadOracleReport *report)
-{
-    json_t *all = json_object();
-    for (int i = 0; i < report->parameter_count; i++) {
-        const char *name = report->parameters[i].name;
-        json_object_set_new(all, name, json_real(radGetOracleParameter(oracle, name)));
-    }
-    return all;
-}
-
 static json_t *marks_json(const uint64_t marked[RAD_LINK_MARKS])
 {
     json_t *all = json_array();
@@ -134,7 +124,7 @@ json_t *summary_json(const struct summary *s)
     json_t *all =
         json_pack("{s:o, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "scene",
                   json_text(s->options->scene), "oracle", oracle.name, "release", oracle.release,
-                  "parameters", parameters_json(s->oracle, &oracle), "threads", s->options->threads,
+                  "parameters", oracle_parameters_json(s->oracle), "threads", s->options->threads,
                   "bands", (int)r->bands, "faces", (int)scene->polygons, "faces_cut",
                   (int)scene->cut, "faces_cut_into", (int)scene->parts, "elements",
                   (int)r->elements, "leaves", (int)r->leaves);

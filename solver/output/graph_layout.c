@@ -1,24 +1,19 @@
 /* graph_layout.c - Graphviz says where the shapes of a drawing stand.
  *
  * It is told the size of everything, as boxes without text, so that its answer does not hang on the
- * fonts of this machine, and gives places as JSON. Both sides are unnamed temporary files: no pipe
- * can fill up and nothing is left behind. Shapes go by number: n0, l0, e0, cluster_0.
+ * fonts of this machine, and gives places as JSON. Shapes go by number: n0, l0, e0, cluster_0.
  * [Gansner, Koutsofios, North, Vo 1993, for what dot does]
  * SPDX-License-Identifier: MIT */
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "output/graph_drawing.h"
-#include "util/end_with_parent.h"
 #include "util/report.h"
+#include "util/run_between.h"
 
-enum { NOT_RUN = 127 }; /* as a shell says it */
 static const double INCH = 72;
 
 /* ---- what dot is given */
@@ -74,37 +69,20 @@ static void print_dot(FILE *out, const struct drawing *p)
     fputs("}\n", out);
 }
 
-/* The status of dot from one file to the other; -1: it did not end by itself. */
-static int run_dot(FILE *from, FILE *to)
-{
-    const pid_t parent = getpid();
-    pid_t child = fork();
-    if (child == 0) {
-        end_with_parent(parent, SIGTERM);
-        if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
-            execlp("dot", "dot", "-Tjson0", (char *)NULL);
-        _exit(NOT_RUN);
-    }
-    int status;
-    while (child > 0 && waitpid(child, &status, 0) < 0)
-        if (errno != EINTR)
-            return -1;
-    return child > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 /* What dot makes of the drawing; NULL after a message. */
 static json_t *ask_dot(const struct drawing *p)
 {
+    static const char *const dot[] = {"dot", "-Tjson0", NULL};
     FILE *from = tmpfile(), *to = tmpfile();
     json_t *placed = NULL;
     if (!from || !to) {
         report_error(p->oracle, 0, "no temporary file to draw with: %s", strerror(errno));
     } else {
         print_dot(from, p);
-        int status = fflush(from) != 0 || fseek(from, 0, SEEK_SET) != 0 ? -1 : run_dot(from, to);
+        const int status = run_between(dot, from, to);
         rewind(to);
         placed = status == 0 ? json_loadf(to, 0, NULL) : NULL;
-        if (status == NOT_RUN)
+        if (status == RUN_NO_PROGRAM)
             report_error(p->oracle, 0,
                          "cannot run 'dot': drawings are laid out by Graphviz; install it (package "
                          "graphviz)");

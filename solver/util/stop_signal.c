@@ -17,12 +17,17 @@ static void on_signal(int number)
 
 void stop_signal_watch(void)
 {
-    struct sigaction action = {0};
-    action.sa_handler = on_signal;
-    sigemptyset(&action.sa_mask);
+    static const int stops[] = {SIGINT, SIGTERM};
     watched = 1;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    for (size_t i = 0; i < sizeof stops / sizeof *stops; i++) {
+        struct sigaction action;
+        if (sigaction(stops[i], NULL, &action) != 0 || action.sa_handler == SIG_IGN)
+            continue; /* whoever started us does not want it to end us */
+        action = (struct sigaction){0};
+        action.sa_handler = on_signal;
+        sigemptyset(&action.sa_mask);
+        sigaction(stops[i], &action, NULL);
+    }
 }
 
 void stop_signal_unwatch(void)

@@ -7,6 +7,7 @@
 #include <check.h>
 #include <math.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -565,6 +566,11 @@ START_TEST(test_error_by_reference)
     ck_assert_int_eq(radMeasureErrorBy(solution, foreign, &e), -1);
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "another scene");
     ck_assert_int_eq(radMeasureErrorBy(solution, NULL, &e), -1);
+    RadSolution unit = radNewSolution(scene, oracle, &(struct RadSolveOptions){.unit = 1});
+    ck_assert_int_eq(radSolve(unit), 0);
+    ck_assert_int_eq(radMeasureErrorBy(unit, x, &e), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "RadSolveOptions.unit");
+    radReleaseSolution(unit);
 
     double b[6], off = 0, more = 0;
     ck_assert_int_eq(radGetPolygonValues(solution, 0, b, NULL), 0);
@@ -739,6 +745,25 @@ START_TEST(test_oracles)
         RAD_RELEASE_FLAT));
     expect_error(device, RAD_ERROR_UNSUPPORTED, "no-such-compiler");
     radReleaseDevice(device);
+}
+END_TEST
+
+/* A host that ignores its children's ends does not learn how the compiler ended. */
+START_TEST(test_children_ignored)
+{
+    static const char text[] =
+        "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }";
+    void (*before)(int) = signal(SIGCHLD, SIG_IGN);
+    RadDevice device = radNewDevice(NULL);
+    RadOracle flat = radParseOracle(device, "mine", text, NULL, RAD_RELEASE_FLAT);
+    ck_assert_msg(flat != NULL, "%s", radGetDeviceErrorMessage(device));
+    radReleaseOracle(flat);
+    radReleaseDevice(device);
+    device = radNewDevice(&(struct RadDeviceOptions){.compiler = "false"});
+    ck_assert_ptr_null(radParseOracle(device, "mine", text, NULL, RAD_RELEASE_FLAT));
+    expect_error(device, RAD_ERROR_UNSUPPORTED, "'false' failed");
+    radReleaseDevice(device);
+    signal(SIGCHLD, before);
 }
 END_TEST
 
@@ -930,6 +955,11 @@ START_TEST(test_no_place)
         ck_assert_int_eq(call, -1); \
         expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "which is NULL"); \
     } while (0)
+    enum decision decisions[2] = {DECISION_LINK, DECISION_LINK};
+    radAskOracles(oracle, NULL, 2, decisions);
+    ck_assert(decisions[0] == DECISION_STOP && decisions[1] == DECISION_STOP);
+    radAskOracles(oracle, NULL, 2, NULL);
+    ck_assert_int_eq(radListOracleFiles("examples/oracles/bf.dag", NULL, NULL), 0);
     REFUSED(radGetSceneReport(scene, NULL));
     REFUSED(radFindCauses(solution, NULL, NULL));
     REFUSED(radAccountErrors(solution, NULL, NULL));
@@ -1517,6 +1547,7 @@ int main(void)
     tcase_add_test(t, test_error_by_reference);
     tcase_add_test(t, test_oracles);
     tcase_add_test(t, test_plugins);
+    tcase_add_test(t, test_children_ignored);
     tcase_add_test(t, test_registered);
     tcase_add_test(t, test_statistics);
     tcase_add_test(t, test_no_handle);

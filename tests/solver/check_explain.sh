@@ -147,6 +147,7 @@ says 1 "'foo' names no element" explain "$small" --pair foo,3
 says 1 "numbered from 0 to 184" explain "$room" --pair 0,185
 says 1 "polygon 1 became 4 faces; write 1.0 to 1.3" explain "$room" --pair 0,1
 says 1 "polygon 12 is one face" explain "$room" --pair 12.1,0
+says 1 "polygon 12 is one face" explain "$room" --pair 12.4294967295,0
 says 1 "polygon 0 has one side" explain "$room" --pair 0b,3
 says 1 "the parts of 0 are numbered from 0 to 3" explain "$room" "${coarse[@]}" --pair 0/4,3
 says 1 "has not been split" explain "$room" "${coarse[@]}" --pair 0/0/0/0/0/0/0/0/0,3

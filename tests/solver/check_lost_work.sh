@@ -97,6 +97,9 @@ odd=$(printf 'caf\351')
 cp "$scenes/furnace.obj" "$odd.obj" && cp "$scenes/furnace.mtl" .
 mv bf.dag "$odd.dag"
 for value in 1 inf; do check_json j solve "$odd.obj" -q --no-correct --set energy=$value --json j; done
+"$radiosity" solve "$odd.obj" -q --no-correct --set energy=inf --json j >out 2>err
+check "an infinite parameter is none" grep -q '"energy": null' j
+rm -f j
 check_json j.json solve "$odd.obj" -q --no-correct --set energy=inf --statistics j.json
 check_json j viewfactors "$odd.obj" -q --json j
 check_json j explain "$odd.obj" -q --pair 0,1 --set energy=inf --json j

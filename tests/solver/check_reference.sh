@@ -87,7 +87,7 @@ check "at one go" "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% -
 : >long.csv.log
 kept= # 1: a run has left a state
 for i in 1 2 3 4 5 6 7 8; do
-    "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% --threads 1 -o long.csv >out 2>err &
+    env --default-signal=INT "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% --threads 1 -o long.csv >out 2>err &
     pid=$!
     [ $i -lt 4 ] && { catches $pid; sleep 0.2; kill -INT $pid 2>/dev/null || kill -TERM $pid 2>/dev/null; }
     wait $pid

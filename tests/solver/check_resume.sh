@@ -17,7 +17,7 @@ value() { sed -n "s/.*\"$1\": \\([-0-9.e+]*\\),*$/\\1/p" "$2" | head -n 1; }
 # ---- stopped by signals, then to the end, on one to three threads
 stops=0 status=130
 for i in 1 2 3 4 5 6 7 8; do
-    "$radiosity" viewfactors "$scene" --threads $((1 + i % 3)) -o m.csv --json m.json --resume m.state >out 2>whole.said &
+    env --default-signal=INT "$radiosity" viewfactors "$scene" --threads $((1 + i % 3)) -o m.csv --json m.json --resume m.state >out 2>whole.said &
     pid=$!
     signal=$([ $((i % 2)) = 1 ] && echo INT || echo TERM)
     [ $i -gt 3 ] || { catches $pid; sleep 0.3; kill -$signal $pid 2>err.kill; rm -f err.kill; }
@@ -47,6 +47,16 @@ kill -TERM $pid && kill -TERM $pid && kill -TERM $pid
 wait $pid
 check "two signals leave at most a state" [ -z "$(left m.state)" ]
 rm -f m.state
+
+# ---- whoever ignores SIGINT, as jobs of a script do, is not stopped by it
+env --ignore-signal=INT "$radiosity" viewfactors "$scene" -q -o m.csv --resume m.state >out 2>err &
+pid=$!
+catches $pid
+kill -INT $pid 2>/dev/null
+wait $pid
+check "SIGINT stays ignored" [ $? = 0 ]
+check "the same, undisturbed" cmp whole.csv m.csv
+rm -f m.csv
 
 # ---- other closures, outputs and threads may go on with a state, silently if asked to
 cp state m.state

@@ -89,7 +89,7 @@ check "the verdict" grep -q "^cross-validation: FAILS: " out
 check "in JSON" grep -q '"carries_over": false' t.json
 
 # ---- stopped: the best so far
-"$radiosity" tune bf_guarded "$scenes/cornell.obj" "$room" --error 4% -o stopped.dag >out 2>err &
+env --default-signal=INT "$radiosity" tune bf_guarded "$scenes/cornell.obj" "$room" --error 4% -o stopped.dag >out 2>err &
 pid=$!
 for i in $(seq 100); do
     sleep 0.2
