@@ -118,6 +118,10 @@ judge "first comments" "$tmp/first"
 awk 'length($0) > 100 { print FILENAME ":" FNR ": " length($0) " columns" }' $(cat "$tmp/files") >"$tmp/wide"
 judge "lines above 100 columns" "$tmp/wide"
 
+# ---- code that mutations.sh breaks is where it says
+bash tests/mutations.sh --made >"$tmp/made" 2>&1
+judge "mutations" "$tmp/made"
+
 # ---- threads: the library is compiled without OpenMP, which would leave such loops to one thread and say nothing
 grep -nE '^ *#pragma omp (parallel|for|atomic|critical|barrier|single)|omp_[a-z]+_|<omp\.h>' $(grep '^runtime/' "$tmp/files") >"$tmp/openmp"
 judge "OpenMP in the library, where loops are thread_pool_run's" "$tmp/openmp"

@@ -1,12 +1,10 @@
 #!/usr/bin/env bash
 # mutations.sh - break the code on purpose, one place at a time, and see that a suite near it fails: make mutations.
 # The tree is copied and built once; every mutation is made in the copy by sed, built, tried and undone.
-# mutations.sh NAME... tries those whose names begin so.
+# mutations.sh NAME... tries those whose names begin so; mutations.sh --made only that each finds what it is to change.
 # SPDX-License-Identifier: MIT
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
 
 # name | file | what sed does | suites
 table() {
@@ -108,8 +106,8 @@ differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
 libraries: the first counts | solver/scene/materials_by_name.c | s/^    \*slot = n;/    if (*slot == NONE) *slot = n;/ | solver/check_damaged
-damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/check == wanted || wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
-more behind a state | runtime/engine/exchange_state_read.c | s/|| judge(s, state_get_end(&s->in)) < 0// | runtime/check_exchange_state
+damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
+more behind a state | runtime/engine/exchange_state_read.c | s/judge(s, state_get_end(&s->in)) < 0/0/ | runtime/check_exchange_state
 a block of a state is left out | runtime/engine/exchange_fill.c | s/(i >= f->read/(i > f->read/ | runtime/check_exchange_state
 a state of other parameters | runtime/engine/state_identity.c | s/hash = state_mix(hash, &value, sizeof value);/(void)value;/ | runtime/check_exchange_state
 unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work
@@ -197,7 +195,7 @@ leaves of one size | runtime/engine/measured_error.c | s/rays \* SMALL <= landin
 ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflectance\[at\])/area/ | runtime/check_ambient
 backs of another face | runtime/particles/particles.c | s/tally->back\[ray_meets_back(met)\]/tally->back[0]/ | runtime/check_backs
 backs of a replicate | runtime/engine/black_backs.c | s,/ REPLICATES / tally->power,/ tally->power, | runtime/check_backs
-names of other faces | runtime/engine/dim_faces.c | s/faces\[d->face\[p->from\]\].input/j/ | solver/check_backs
+names of other faces  | runtime/engine/dim_faces.c | s/return faces\[d->face\[i\]\].input/return i + 0 * faces[0].input/ | solver/check_backs
 all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine\[1\] - mine\[0\])/tally->held = h->face_count/ | runtime/check_own_counts
 letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
 quarters by their place | runtime/hierarchy/quarters.h | s/ + (number - q->child\[leaf\]);/;/ | runtime/check_own_counts
@@ -236,6 +234,16 @@ horizons have one side | runtime/engine/exchange_horizon.c | s/sign = over\[0\] 
 END
 }
 
+if [ "${1-}" = --made ]; then
+    cd "$top" && table | while IFS='|' read -r name file change _; do
+        file=$(echo $file)
+        { new=$(sed "$change" "$file" 2>/dev/null) && [ "$new" != "$(cat "$file")" ]; } || echo "$name: nothing in $file is like it"
+    done
+    exit
+fi
+
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
 mkdir "$work/tree"
 (cd "$top" && tar cf - --exclude=./build --exclude='./build-*' --exclude=./.git .) | tar xf - -C "$work/tree"
 cd "$work/tree" || exit 2
