@@ -46,13 +46,18 @@ void sight_eyes_add(struct sight_eyes *eyes, const struct element *piece)
     }
 }
 
+/* A point so near to a face's plane, of the piece's radius, sees it from the edge: its shade is as
+ * narrow, wherever it falls, and tells nothing. Chosen. */
+static const double EDGE_ON = 0.01;
+
 /* Does the face throw a shade on any of the points? */
-static int is_seen(const struct sight_eyes *eyes, const struct element *face)
+static int is_seen(const struct sight_eyes *eyes, const struct element *face, double radius)
 {
     const struct sight *sight = eyes->sight;
     struct outline shade;
     for (int i = 0; i < eyes->count; i++)
         if (eyes->height[i] > 0
+            && fabs(height3(eyes->from[i], face->vertex[0], face->normal)) > EDGE_ON * radius
             && outline_cast(&shade, &sight->raised, eyes->from[i], eyes->height[i],
                             (const double(*)[3])face->vertex, face->vertices)
             && sight_shade_meets(&shade, &sight->cell))
@@ -94,7 +99,7 @@ double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
         return 0;
     for (int i = 0; i < count; i++) {
         const struct element *face = &tree->h.elements[faces[i]];
-        if (is_seen(eyes, face) || is_beyond(face, piece, to, tree->h.flat)
+        if (is_seen(eyes, face, piece->radius) || is_beyond(face, piece, to, tree->h.flat)
             || is_beyond(face, to, piece, tree->h.flat)
             || !candidates_meets(&tree->h, &shaft, tree->host.ray_offset, faces[i]))
             continue;

@@ -4,8 +4,8 @@
  * How many faces a ray meets is the same on both sides of an edge where two faces go on into each
  * other, both turned to the eye or both away: their shadows lie side by side. So of a mesh the
  * shadow changes at its outline alone. The polygon is cut along the outline's edges that cross it,
- * as far as they do; what is then left uncut is seen or hidden as one, and one ray at each part's
- * middle says which, past the faces themselves. An edge too many costs time and changes nothing.
+ * as far as they do; what is then left uncut is seen or hidden as one, and one ray into each part
+ * says which, past the faces themselves. An edge too many costs time and changes nothing.
  * Faces must be flat. Nothing else is asked of surfaces: they may be open, of any shape, and cross.
  * Invariant: as sight_pieces.c, but for rounding; where no edge is an outline from anywhere, the
  * piece is clear or hidden, proved (visibility/hidden.c).
@@ -48,28 +48,39 @@ static void cast_edges(struct cutting *c, const struct outline_cell *cell)
     }
 }
 
+/* The sequence of its multiples, less whole ones, comes near no value twice. */
+static const double GOLDEN = 0.6180339887498949;
+
 /* A part that so many edges still run through is worth a look at what hides all of it: a ray more
  * to one that is cut into more than as many. Chosen. */
 enum { WORTH_A_LOOK = 8 };
 
-/* A block with a face that the ray to the middle of a part meets; -1: there is none. */
-static int hides_middle(const struct cutting *c, const struct outline_cell *cell)
+/* A block with a face that the ray to somewhere within a part meets; -1: there is none. Corners
+ * count unlike each other: midway between them run edges where two faces go on into each other, as
+ * the diagonals of squares, and where these do not fit to the last digit a ray slips through. */
+static int hides_inside(const struct cutting *c, const struct outline_cell *cell)
 {
     struct sight_ray ray = {.from = {c->from[0], c->from[1], c->from[2]}};
-    const double each = 1.0 / cell->n;
-    for (int i = 0; i < cell->n; i++)
+    double all = 0, share = 0;
+    for (int i = 0; i < cell->n; i++) {
+        share += GOLDEN;
+        share -= share >= 1;
         for (int k = 0; k < 2; k++)
-            ray.to[k] += cell->p[i][k] * each;
+            ray.to[k] += cell->p[i][k] * (1 + share);
+        all += 1 + share;
+    }
+    for (int k = 0; k < 2; k++)
+        ray.to[k] /= all;
     sight_ray_aim(&ray);
     return sight_faces_stop(c->between->block, sight_between_blocks(c->between), &ray);
 }
 
-/* Does one face that hides a part's middle hide all of it? Where the rays to its corners meet what
- * is convex, so do all others. */
+/* Does one face that hides a place within a part hide all of it? Where the rays to its corners meet
+ * what is convex, so do all others. */
 static int is_covered(const struct cutting *c, const struct outline_cell *cell)
 {
     struct sight_ray ray = {.from = {c->from[0], c->from[1], c->from[2]}};
-    const int at = hides_middle(c, cell);
+    const int at = hides_inside(c, cell);
     int met = at < 0 ? 0 : ~0;
     for (int i = 0; i < cell->n && met; i++) {
         ray.to[0] = cell->p[i][0];
@@ -118,7 +129,7 @@ static void add_seen(const struct cutting *c, const uint16_t *among, int count, 
             list[n++] = among[k];
     }
     if (by < 0) {
-        if (hides_middle(c, cell) < 0)
+        if (hides_inside(c, cell) < 0)
             sight_eye_add(c->eye, cell);
         return;
     }

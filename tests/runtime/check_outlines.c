@@ -417,6 +417,59 @@ START_TEST(test_round)
 }
 END_TEST
 
+/* Two squares between, of two triangles each, whose corners fit to the last digits or not: the
+ * middle of a square's shadow is on the edge that the two have. */
+START_TEST(test_misfit)
+{
+    static struct sight_between between;
+    static const double misfit[] = {0, 1e-16, 1e-15, 1e-13, 1e-11, 1e-9, 1e-8};
+    static const int corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    uint64_t state = 1;
+    for (size_t i = 0; i < sizeof misfit / sizeof *misfit; i++) {
+        struct scene s;
+        struct exchange_tree t;
+        open_squares(&s);
+        for (int face = 0; face < 4; face++) {
+            double p[3][3];
+            for (int c = 0; c < 3; c++) {
+                const int at = corners[face % 2][c];
+                const double on[3] = {0.3 + 0.4 * (at == 1 || at == 2), 0.3 + 0.4 * (at > 1),
+                                      0.4 + 0.2 * (face > 1)};
+                for (int k = 0; k < 3; k++)
+                    p[c][k] = on[k] + misfit[i] * (2 * chance(&state) - 1);
+            }
+            made_face(&s, 0, 3, (const double(*)[3])p);
+        }
+        open_tree(&t, &s);
+        const struct element *low = face_of(&t, 0), *high = face_of(&t, 1);
+        uint32_t list[SIGHT_LIST];
+        struct shaft shaft;
+        struct sight sight;
+        struct polygon whole = {.n = 4};
+        memcpy(whole.v, high->vertex, 4 * sizeof *whole.v);
+        ck_assert(shaft_open(&shaft, low, high, &t.host));
+        int count = candidates_find(&t.h, &shaft, t.host.ray_offset, SIGHT_LIST, list);
+        qsort(list, (size_t)count, sizeof *list, compare_faces);
+        sight_open(&sight, high, &whole, t.host.ray_offset);
+        ck_assert_int_eq(sight_between_find(&between, &t, &shaft, list, count, 0), BETWEEN_SOME);
+        ck_assert_int_eq(sight_between_place(&between, &t, &sight), 0);
+        ck_assert_int_eq(between.edges, 8); /* none that two have */
+        for (int at = 0; at < 400; at++) {
+            const double x[3] = {chance(&state), chance(&state), 0};
+            double clear;
+            const double by_outlines = sight_past(&sight, x, low->normal, t.host.ray_offset,
+                                                  &between, &clear),
+                         by_faces = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t,
+                                                 list, count, &clear);
+            ck_assert_msg(fabs(by_outlines - by_faces) < 1e-6, "misfit %g: %g, %g", misfit[i],
+                          by_outlines, by_faces);
+        }
+        exchange_tree_close(&t);
+        made_close(&s);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("outlines");
@@ -427,6 +480,7 @@ int main(void)
     tcase_add_loop_test(tests, test_loose, 0, 3);
     tcase_add_loop_test(tests, test_round, 0, under_sanitizers() ? 2 : 8);
     tcase_add_test(tests, test_hidden);
+    tcase_add_test(tests, test_misfit);
     tcase_add_test(tests, test_closed);
     tcase_add_test(tests, test_many_between);
     if (!under_sanitizers()) /* half a minute, of what the others do */

@@ -172,6 +172,32 @@ START_TEST(test_joint)
 }
 END_TEST
 
+/* A wall with a canopy at half its height, seen across a hall: the middle of a wall lies in the
+ * canopy's plane, and sees it from the edge, as points beside that do not. Where it is a thousandth
+ * higher the factor is the same. */
+START_TEST(test_canopy)
+{
+    static const double walls[9][3][3] = {
+        {{0, 0, 20}, {0, 60, 0}, {100, 0, 0}},  {{0, 0, 0}, {0, 60, 0}, {0, 0, 20}},
+        {{100, 0, 0}, {0, 0, 20}, {0, 60, 0}},  {{0, 0, 0}, {0, 0, 20}, {100, 0, 0}},
+        {{0, 60, 0}, {100, 0, 0}, {0, 0, 20}},  {{30.2, 20.1, 1e-3}, {1e-3, 0, 0}, {0, 1e-3, 0}},
+        {{28, 18, 4}, {2.19, 0, 0}, {0, 7, 0}}, {{28, 18, 0}, {0, 0, 4}, {0, 7, 0}},
+        {{30.19, 18, 0}, {0, 7, 0}, {0, 0, 4}}};
+    static double f[2][11 * 11], area[FACES];
+    const double along[3] = {3, 0, 0}, across[3] = {0, 3, 0};
+    for (int i = 0; i < 2; i++) {
+        const double at[3] = {30, 19, 2 + 1e-3 * i};
+        clear();
+        for (int k = 0; k < 9; k++)
+            rectangle(walls[k][0], walls[k][1], walls[k][2]);
+        rectangle(at, along, across);
+        rectangle(at, across, along);
+        factors(9, 0, f[i], area);
+    }
+    ck_assert_double_eq_tol(f[0][8 * 11 + 2], f[1][8 * 11 + 2], 3e-5);
+}
+END_TEST
+
 /* The judge itself: of no sheets, and of one that reaches from wall to wall, the factor is known.
  */
 START_TEST(test_right)
@@ -190,6 +216,7 @@ int main(void)
     tcase_add_test(t, test_right);
     tcase_add_test(t, test_row);
     tcase_add_test(t, test_joint);
+    tcase_add_test(t, test_canopy);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
