@@ -33,13 +33,13 @@ static int agree(const struct solve *s, const struct tally *particles, const str
     return by_paths > 0 && off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);
 }
 
-/* Rays of a first look by paths, about. */
-static double rays_of_look(const struct tracer *t)
+/* The paths of a first look. */
+static double paths_of_look(const struct tracer *t)
 {
     uint32_t faces = 0;
     for (uint32_t f = 0; f < t->hierarchy->face_count; f++)
         faces += tracer_reflectance(t, f) * tracer_surface(t, f)->area > 0;
-    return (double)PATH_BLOCK * RAYS_OF_PATH * faces;
+    return (double)PATH_BLOCK * faces;
 }
 
 int path_mending_trace(struct path_tally *y, const struct solve *s, const struct tracer *t,
@@ -51,11 +51,13 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
     if (mended_error_times(s, tally, goal, &times, &alone) < 0)
         return -1;
     const double cost = alone * (double)tally->rays;
-    if (!(fmin(cost, most) > PATHS_LOOK * rays_of_look(t)))
+    const double look = paths_of_look(t);
+    if (!(fmin(cost, most) > PATHS_LOOK * RAYS_OF_PATH * look))
         return 0;
     if (path_tally_open(y, t, path_mending_stream(0)) < 0)
         return -1;
     for (int first = 1;; first = 0) {
+        const uint64_t before = y->tally.rays;
         if (path_tally_trace(y, t, s->state.irradiance, (uint64_t)paths, watch) < 0
             || mended_error_times(s, &y->tally, goal, &times, &alone) < 0)
             return -1;
@@ -64,9 +66,11 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
             return 0;
         if (first && !(PATHS_CHEAPER * alone * rays < cost))
             return 0;
-        if (!(times > 1) || rays >= 0.99 * most)
+        if (!(times > 1) || rays >= 0.99 * most || y->tally.rays == before)
             return 1;
-        /* they double twice at the most before that is asked again */
-        paths = (double)y->tally.particles * REPLICATES * fmin(fmin(1.02 * times, 4), most / rays);
+        /* they double twice at the most before that is asked again, and each face has a block more
+         * where there is room for that: less may be none */
+        const double traced = (double)y->tally.particles * REPLICATES;
+        paths = fmin(fmax(traced * fmin(1.02 * times, 4), traced + look), traced * most / rays);
     }
 }

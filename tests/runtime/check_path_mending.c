@@ -112,6 +112,36 @@ START_TEST(test_left)
 }
 END_TEST
 
+/* Where noise is never as small as is asked for, paths end by the rays that there may be, wherever
+ * that lies between blocks of all faces. */
+START_TEST(test_most)
+{
+    enum { TILES = 8, FACES = 6 * TILES * TILES };
+    const uint32_t sky[6] = {0, 0, 0, 0, 0, 0};
+    struct mending_goal wanted = goal;
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    made_open(&scene);
+    made_material(&scene, 0, 1);
+    made_material(&scene, 0.6, 0);
+    made_room(&scene, sky, 100, 100, 100);
+    for (int i = 0; i < FACES; i++)
+        made_tile(&scene, 1, 50, i % 6, i / 6, TILES, 0);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(2));
+    wanted.noise = 1e-5;
+    wanted.most = (uint64_t)(900000 * (1 + _i / 8.0));
+    ck_assert_int_eq(measure_and_mend(&s, &wanted, &alone, &cause), 0);
+    ck_assert_int_eq(s.by_paths, 1);
+    ck_assert_uint_gt(alone.rays, wanted.most / 2);
+    ck_assert_uint_lt(alone.rays, wanted.most + wanted.most / 4);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* A lamp in a room of white walls: light that has been reflected many times. */
 START_TEST(test_room)
 {
@@ -300,6 +330,7 @@ int main(void)
     TCase *c = tcase_create("paths");
     tcase_set_timeout(c, thorough() ? 600 : 60);
     tcase_add_loop_test(c, test_sky, 0, 2);
+    tcase_add_loop_test(c, test_most, 0, 8);
     tcase_add_test(c, test_left);
     tcase_add_test(c, test_room);
     tcase_add_test(c, test_other_light);
