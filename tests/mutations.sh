@@ -39,6 +39,7 @@ nothing seen is nothing there | runtime/engine/reflected_light.c | s/        \*v
 faces are surer than all light | runtime/engine/dim_belief.h | s/variance + d->shared \* light/variance + 0 * d->shared * light/ | runtime/check_unseen_light
 what nobody has found light on is dark | runtime/engine/dim_belief.h | s/light > 0 \&\& variance/variance/ | runtime/check_unseen_light
 planes prove nothing | runtime/engine/reflected_light.c | s/^    return 0;/    return 1;/ | runtime/check_unseen_light
+one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - left)/ | runtime/check_dim_faces
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces
 near as far | runtime/terms/visibility.h | s/dot3(apart, apart) < wide \* wide/dot3(apart, apart) < 0 * wide/ | runtime/check_runtime

@@ -16,6 +16,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/dim_belief.h"
+#include "kernel/constants.h"
 
 void dim_count_replicates(const struct dim_faces *d, const struct tally *tally,
                           const struct dim_polygon *p, double sum[REPLICATES])
@@ -99,7 +100,7 @@ int dim_is_sure(const struct dim_faces *d, const struct dim_polygon *p)
     double variance, both = light_of_both(d, p, &variance), weight = split_weight(d, p);
     if (weight > 0)
         variance = weight * p->split_variance;
-    return dim_is_known(d, (1 - weight) * both + weight * p->split_light, variance);
+    return dim_is_known(d, (1 - weight) * both + weight * p->split_light, variance, DIM_GOAL);
 }
 
 double dim_mean(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)

@@ -4,7 +4,6 @@
 #define DIM_BELIEF_H
 
 #include "engine/dim_paths.h"
-#include "kernel/constants.h"
 #include "particles/particles.h"
 
 /* times the paths of a first look: what fewer say is not believed; chosen, its noise is then halved
@@ -25,10 +24,11 @@ double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p)
 double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p);
 
 /* Of some light with that variance, and a relative variance that all light shares: is its standard
- * error no more than DIM_GOAL of it? */
-static inline int dim_is_known(const struct dim_faces *d, double light, double variance)
+ * error no more than that share of it? */
+static inline int dim_is_known(const struct dim_faces *d, double light, double variance,
+                               double share)
 {
-    const double goal = DIM_GOAL * light;
+    const double goal = share * light;
     return light > 0 && variance + d->shared * light * light <= goal * goal;
 }
 

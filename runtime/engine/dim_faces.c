@@ -78,6 +78,21 @@ static double *count_polygons(const struct dim_faces *d, const struct tally *tal
     return sum;
 }
 
+/* The standard error, as a share, with which none of so many is off by DIM_OFF, but with a chance
+ * of DIM_DOUBT; DIM_GOAL of one. */
+static double sure_of(uint32_t count)
+{
+    double low = 0, high = 40; /* standard errors */
+    for (int i = 0; i < 60; i++) {
+        const double middle = (low + high) / 2;
+        if (count * erfc(middle / sqrt(2)) > DIM_DOUBT)
+            low = middle;
+        else
+            high = middle;
+    }
+    return fmin(DIM_OFF / high, DIM_GOAL);
+}
+
 /* Those that are dim; the others are forgotten. Returns 0, or -1 when out of memory. */
 static int keep_dim(struct dim_faces *d, const struct tally *tally)
 {
@@ -89,7 +104,7 @@ static int keep_dim(struct dim_faces *d, const struct tally *tally)
             continue;
         struct dim_polygon at = d->polygon[d->of[p]]; /* places rise with p */
         weigh(d, tally, &sum[(size_t)d->of[p] * REPLICATES], &at);
-        d->of[p] = dim_is_known(d, at.light, at.variance) ? NOT_DIM : kept;
+        d->of[p] = dim_is_known(d, at.light, at.variance, d->sure) ? NOT_DIM : kept;
         if (d->of[p] != NOT_DIM)
             d->polygon[kept++] = at;
     }
@@ -117,8 +132,9 @@ static int trace_paths(struct dim_faces *d, double budget)
     for (uint32_t j = 0; j < d->count; j++)
         d->polygon[j].wanted = first > 1 ? (uint64_t)first : 1;
     for (int part = 2; part >= 0; part--) {
+        const double spent = (double)(*d->rays - before);
         if (part < 2)
-            dim_plan(d, fmax(budget - (double)(*d->rays - before), 0));
+            dim_plan(d, fmax(budget - spent, 0), 2 * budget - spent);
         for (uint32_t j = 0; j < d->count && part == 1; j++)
             d->polygon[j].wanted -= (d->polygon[j].wanted - d->polygon[j].paths) / 2;
         if (dim_paths_trace(d) < 0)
@@ -303,6 +319,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     if (!failed) {
         count->large = d.count;
         d.shared = size != DIM_SMALL_ONES ? shared_doubt(light, variance) : 0;
+        d.sure = size != DIM_SMALL_ONES ? sure_of(d.count) : DIM_GOAL;
         failed = keep_dim(&d, tally) < 0;
         d.believed = believed(&d, tally);
         failed = failed || (d.count > 0 && quarter_light_open(&d.light, s) < 0);

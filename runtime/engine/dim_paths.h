@@ -57,6 +57,7 @@ struct dim_faces {
     double believed; /* where less falls B~ is not asked: irradiance, all bands (W/m2) */
     double unseen;   /* light reflected, mean over the scene, all bands (W/m2) */
     double shared;   /* variance of all light that is reflected, as a share of its square */
+    double sure;     /* standard error, as a share of its light, that each is to have in the end */
     const struct watch *watch;
     uint64_t *rays;
 };

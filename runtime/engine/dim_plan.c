@@ -73,22 +73,26 @@ static void give(struct dim_faces *d, int planned, double share)
     }
 }
 
-void dim_plan(struct dim_faces *d, double rays)
+/* The least share, from `share` to `most`, that these can have by so many rays. */
+static double share_within(const struct dim_faces *d, int planned, double share, double most,
+                           double rays)
 {
-    const double all = rays;
-    int sure = 1;
+    while (share < most && rays_of(d, planned, share) > rays)
+        share *= 1.02;
+    return share;
+}
+
+void dim_plan(struct dim_faces *d, double rays, double most)
+{
     for (uint32_t j = 0; j < d->count; j++) {
         d->polygon[j].planned = 0;
         d->polygon[j].wanted = d->polygon[j].paths;
     }
-    if (d->size != DIM_SMALL_ONES)
-        rays = plan_cheap(d, rays);
-    for (uint32_t j = 0; j < d->count; j++)
-        sure &= d->polygon[j].planned;
-    double share = sure ? DIM_SURE : DIM_GOAL;
-    const double most = sure ? DIM_GOAL : 1, left = sure ? all : rays;
-    while (share < most && rays_of(d, sure, share) > left)
-        share *= 1.02;
-    if (share < most)
-        give(d, sure, share);
+    const double left = d->size != DIM_SMALL_ONES ? plan_cheap(d, rays) : rays,
+                 sure = share_within(d, 1, d->sure, DIM_GOAL, most - left),
+                 share = share_within(d, 0, DIM_GOAL, 1, left);
+    if (sure < DIM_GOAL)
+        give(d, 1, sure);
+    if (share < 1)
+        give(d, 0, share);
 }

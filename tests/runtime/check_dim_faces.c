@@ -7,9 +7,11 @@
 #include "engine/dim_belief.h"
 #include "engine/dim_faces.h"
 #include "engine/dim_parts.h"
+#include "engine/dim_plan.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/solve_tracer.h"
+#include "kernel/constants.h"
 #include "suite.h"
 
 #define DARK 1e-3  /* W/m2: H in the dark box; in the bright one it is 1 */
@@ -396,6 +398,57 @@ START_TEST(test_missed)
 }
 END_TEST
 
+/* Paths that find 1 or 3 W/m2, one as often as the other, on polygons of 2 W/m2 of which nothing
+ * else is known. */
+static void open_plan(struct dim_faces *d, struct dim_polygon *polygon, uint32_t count)
+{
+    const uint64_t looked = 100;
+    *d = (struct dim_faces){
+        .size = DIM_LARGE_ONES, .polygon = polygon, .count = count, .sure = DIM_GOAL / 2};
+    for (uint32_t i = 0; i < count; i++)
+        polygon[i] = (struct dim_polygon){.light = 2,
+                                          .variance = 1e6,
+                                          .looked = looked,
+                                          .paths = looked,
+                                          .sighted = looked,
+                                          .rays = 4 * looked,
+                                          .all = 2 * (double)looked,
+                                          .square = 5 * (double)looked};
+}
+
+/* The standard error that is planned, of the light. */
+static double planned(const struct dim_polygon *p)
+{
+    return 1 / sqrt((double)p->wanted) / 2;
+}
+
+/* All reach DIM_GOAL by the rays that there are, and where there may be more go on to what many are
+ * to have; one that is too noisy gets what is left, and the others still go on. */
+START_TEST(test_plan)
+{
+    enum { COUNT = 5 };
+    const double goal = 4 / (4 * DIM_GOAL * DIM_GOAL), all = COUNT * goal;
+    struct dim_polygon polygon[COUNT];
+    struct dim_faces d;
+    open_plan(&d, polygon, COUNT);
+    dim_plan(&d, 1.1 * all, 1.1 * all);
+    for (int i = 0; i < COUNT; i++)
+        ck_assert(polygon[i].planned && planned(&polygon[i]) < 1.03 * DIM_GOAL);
+    ck_assert_double_gt(planned(&polygon[0]), 0.9 * DIM_GOAL);
+    dim_plan(&d, 1.1 * all, 5 * all);
+    for (int i = 0; i < COUNT; i++)
+        ck_assert_double_eq_tol(planned(&polygon[i]), d.sure, 0.03 * d.sure);
+    polygon[2].square *= 1000;
+    dim_plan(&d, 1.1 * all, 5 * all);
+    for (int i = 0; i < COUNT; i++)
+        if (i != 2)
+            ck_assert_double_eq_tol(planned(&polygon[i]), d.sure, 0.03 * d.sure);
+    ck_assert(!polygon[2].planned && polygon[2].wanted > polygon[2].paths);
+    ck_assert_double_le(4 * (double)polygon[2].wanted,
+                        1.1 * all - (COUNT - 1) * goal + COUNT * 400);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("dim faces");
@@ -407,6 +460,7 @@ int main(void)
     tcase_add_test(tests, test_unsure);
     tcase_add_test(tests, test_groups);
     tcase_add_test(tests, test_groups_told);
+    tcase_add_test(tests, test_plan);
     tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
