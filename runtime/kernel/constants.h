@@ -391,8 +391,8 @@
  * links say of it have missed light (once in 370 by chance, which then costs split particles);
  * chosen */
 #define DIM_MISSED 3.0
-/* of its light. A polygon whose standard error is no more is known: within 1.96 of them, 95 %, it is
- * off by 5 %, which a reader may hold every large face to; */
+/* of its light. A polygon whose standard error is no more is known: within 1.96 of them, 95 %, it
+ * is off by 5 %, which a reader may hold every large face to; */
 #define DIM_GOAL 0.0255
 /* but of many faces one in twenty is many. Where rays are there for it, none is off by so much, */
 #define DIM_OFF 0.05

@@ -277,7 +277,7 @@ static void furnish(uint64_t seed)
 /* Particles that take all sides for lit meet no dark one. */
 START_TEST(test_by_chance)
 {
-    const uint64_t worlds = under_sanitizers() ? 5 : thorough() ? 400 : 60;
+    const uint64_t worlds = under_sanitizers() ? 3 : thorough() ? 400 : 60;
     uint32_t found = 0, far = 0;
     for (uint64_t seed = 1; seed <= worlds; seed++) {
         struct scene scene;

@@ -109,18 +109,18 @@ START_TEST(test_row)
     static const int counts[] = {5, 8, 12, 16, 20};
     static const double near[] = {0.1, 0.25, 0.4};
     enum { COUNTS = sizeof counts / sizeof *counts, NEAR = sizeof near / sizeof *near };
-    double sheet[MOST], sum = 0, most = 0;
-    for (int i = 0; i < COUNTS * NEAR * ROWS; i++) {
+    double sheet[MOST], sum = 0, most = 0, rows = 0;
+    for (int i = 0; i < COUNTS * NEAR * ROWS; i += under_sanitizers() ? 4 : 1) {
         const int count = counts[i % COUNTS];
         const double by = near[i / COUNTS % NEAR];
         place(sheet, count, (enum row)(i / COUNTS / NEAR));
         const double off = fabs(computed(sheet, count, by) - right_factor(sheet, count, by));
         sum += off;
         most = fmax(most, off);
+        rows++;
     }
-    printf("rows of sheets: off by %.1e in the mean, %.1e at the most\n",
-           sum / (COUNTS * NEAR * ROWS), most);
-    ck_assert_double_lt(sum / (COUNTS * NEAR * ROWS), 3e-4);
+    printf("rows of sheets: off by %.1e in the mean, %.1e at the most\n", sum / rows, most);
+    ck_assert_double_lt(sum / rows, 3e-4);
     ck_assert_double_lt(most, 9e-4);
 }
 END_TEST
