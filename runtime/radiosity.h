@@ -141,6 +141,11 @@ struct RadMaterial {
 
 enum { RAD_GREY = 1, RAD_COLOUR = 3 };
 
+/* What to do of polygons whose front is on another side than that of their neighbours over edges,
+ * or that are a closed room standing empty in another: nothing, find them (RadSceneReport), or
+ * besides turn those of closed shells. */
+enum RadTurned { RAD_TURNED_IGNORE, RAD_TURNED_FIND, RAD_TURNED_FLIP };
+
 /* Polygons in arrays of the caller's, which must outlive radCommitScene and are not looked at after
  * it. Polygon i has sizes[i] corners (all have `size` when sizes is NULL), whose indices into
  * positions stand one polygon after the other, counter-clockwise seen from the front. Concave and
@@ -148,11 +153,6 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
  * outline goes round, once, with its front where that of its larger part is. Polygons without area,
  * also those of fewer than three corners, are dropped and counted, and keep their place in all
  * lists of polygons. */
-/* What to do of polygons whose front is on another side than that of their neighbours over edges,
- * or that are a closed room standing empty in another: nothing, find them (RadSceneReport), or
- * besides turn those of closed shells. */
-enum RadTurned { RAD_TURNED_IGNORE, RAD_TURNED_FIND, RAD_TURNED_FLIP };
-
 struct RadPolygons {
     const double *positions; /* [position_count * 3], m */
     size_t position_count;
@@ -1216,7 +1216,7 @@ RAD_API int radMultiplyExchange(RadExchange exchange, uint32_t columns, const do
 
 struct RadExchangeReport {
     uint64_t links, pairs, rays;
-    double low, high; /* of all rows' sums, before closure */
+    double low, high; /* of all rows' sums, before closure; 0 without rows that have area */
     /* that ought to sum to 1; see the environment; a black back; are covered in part (some are of
      * several of the last three) */
     uint32_t rows_closed, rows_open, rows_backs, rows_covered;

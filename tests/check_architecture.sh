@@ -122,6 +122,11 @@ judge "lines above 100 columns" "$tmp/wide"
 bash tests/mutations.sh --made >"$tmp/made" 2>&1
 judge "mutations" "$tmp/made"
 
+# ---- files and folders that ARCHITECTURE.md names are there
+find . -path './build*' -prune -o -print | sed 's,.*/,,; s/\.[a-z]*$//' | sort -u >"$tmp/stems"
+grep -o '`[a-z][a-z_]*`' ARCHITECTURE.md | tr -d '`' | sort -u | comm -23 - "$tmp/stems" >"$tmp/unnamed"
+judge "names that ARCHITECTURE.md has of nothing" "$tmp/unnamed"
+
 # ---- threads: the library is compiled without OpenMP, which would leave such loops to one thread and say nothing
 grep -nE '^ *#pragma omp (parallel|for|atomic|critical|barrier|single)|omp_[a-z]+_|<omp\.h>' $(grep '^runtime/' "$tmp/files") >"$tmp/openmp"
 judge "OpenMP in the library, where loops are thread_pool_run's" "$tmp/openmp"

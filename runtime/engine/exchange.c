@@ -161,6 +161,8 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
             r->defect_most = fmax(r->defect_most, defect);
         }
     }
+    if (isinf(r->low))
+        r->low = 0;
     r->defect_mean /= r->rows_closed ? r->rows_closed : 1;
     r->environment_mean /= all > 0 ? all : 1;
     r->backs_mean /= all > 0 ? all : 1;

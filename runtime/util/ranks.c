@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include "util/ranks.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -275,14 +276,22 @@ int ranks_any(struct ranks *r, int so)
     return any;
 }
 
+/* MPI counts by int: who has more is ended, as by any of its errors, before something else goes. */
+static int count_of(const struct ranks *r, size_t count)
+{
+    if (count > INT_MAX)
+        fail(r);
+    return (int)count;
+}
+
 void ranks_complete(struct ranks *r, enum ranks_kind kind, void *array, size_t size,
                     const size_t *first)
 {
     if (ranks_count(r) == 1 || first[r->count] == first[0])
         return;
     for (int k = 0; k < r->count; k++) {
-        r->counts[k] = (int)(first[k + 1] - first[k]);
-        r->places[k] = (int)first[k];
+        r->counts[k] = count_of(r, first[k + 1] - first[k]);
+        r->places[k] = count_of(r, first[k]);
     }
     gather(r, array, size);
     r->sent[kind] += (first[r->number + 1] - first[r->number]) * size * (uint64_t)(r->count - 1);
@@ -316,10 +325,10 @@ void ranks_exchange_known(struct ranks *r, enum ranks_kind kind, const void *ite
     static const char nothing; /* Open MPI takes equal addresses for one array, if empty, too */
     size_t sent = 0, came = 0;
     for (int k = 0; k < n; k++) {
-        r->counts[k] = (int)count[k];
-        r->places[k] = (int)sent;
-        r->counts[n + k] = (int)from[k];
-        r->places[n + k] = (int)came;
+        r->counts[k] = count_of(r, count[k]);
+        r->places[k] = count_of(r, sent);
+        r->counts[n + k] = count_of(r, from[k]);
+        r->places[n + k] = count_of(r, came);
         sent += count[k];
         came += from[k];
         r->sent[kind] += k == r->number ? 0 : count[k] * size;

@@ -103,20 +103,20 @@ struct hdf5_file *hdf5_create(const char *path, int together)
 {
     struct hdf5_file *f = calloc(1, sizeof *f);
     struct stat status;
-    const size_t size = strlen(path) + 8;
+    static const char more[] = ".radiosity.tmp"; /* nobody else's */
     be_quiet();
     if (f) {
         *f = (struct hdf5_file){.path = strdup(path), .id = -1, .together = together};
         f->target = stat(path, &status) == 0 ? realpath(path, NULL) : strdup(path);
-        f->temporary = f->target ? malloc(strlen(f->target) + size) : NULL;
+        f->temporary = f->target ? malloc(strlen(f->target) + sizeof more) : NULL;
     }
     if (!f || !f->path || !f->temporary) {
-        report_error(path, 0, "out of memory for its name");
+        report_error(path, 0, "cannot write: %s", strerror(errno));
         hdf5_discard(f);
         return NULL;
     }
     /* one name for all processes, which a run that was killed leaves and the next writes over */
-    sprintf(f->temporary, "%s.tmp", f->target);
+    sprintf(f->temporary, "%s%s", f->target, more);
     int failed = 0;
     errno = 0;
     if (!together || machines_number() == 0) {

@@ -145,7 +145,9 @@ static void draw_row(const struct raster_face *f, int y, uint32_t *face, double 
 {
     double low, high;
     row_range(f, y, &low, &high);
-    for (int x = (int)low; low < high && x < high; x++) {
+    if (!(low < high)) /* an edge along the row is beyond what an int holds */
+        return;
+    for (int x = (int)low; x < high; x++) {
         int inside = 1;
         for (int j = 0; j < f->edges; j++)
             inside &= value(&f->edge[j], x + 0.5, y + 0.5) >= 0;

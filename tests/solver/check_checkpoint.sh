@@ -38,7 +38,7 @@ same_on() {
 check "at one go" "$radiosity" solve "$scene" -q --json whole.json
 check "with a checkpoint" "$radiosity" solve "$scene" -q --threads 1 --checkpoint c.h5 --json a.json
 same "with a checkpoint" a.json
-check "it leaves nothing else" [ ! -e c.h5.tmp ]
+check "it leaves nothing else" [ ! -e c.h5.radiosity.tmp ]
 for threads in 1 3; do
     check "it goes on" "$radiosity" solve "$scene" -q --threads $threads --restart c.h5 --json a.json
     same "$threads threads" a.json
@@ -47,7 +47,7 @@ done
 # ---- killed at any time
 kills=0
 for wait in .1 .2 .3 .45 .6 .8 1.1; do
-    rm -f k.h5 k.h5.tmp
+    rm -f k.h5 k.h5.radiosity.tmp
     "$radiosity" solve "$scene" -q --checkpoint k.h5 >out 2>err &
     pid=$!
     sleep $wait
@@ -135,7 +135,7 @@ cp c.h5 full.h5
 check "a full disk: 1" [ $? = 1 ]
 check "it says so" grep -q "^full.h5: error: cannot write: " said
 check "the last good file stays" cmp c.h5 full.h5
-check "and nothing else" [ ! -e full.h5.tmp ]
+check "and nothing else" [ ! -e full.h5.radiosity.tmp ]
 
 # ---- the same of several processes
 command -v mpirun >/dev/null && ldd "$radiosity" | grep -q libmpi || { finish checkpoint; exit; }
