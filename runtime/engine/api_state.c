@@ -13,6 +13,9 @@ int radGetSolutionState(RadSolution solution, struct RadStatePart part[RAD_STATE
         return api_fail(device, RAD_ERROR_INVALID_OPERATION,
                         "a solution has a state between two passes: after radRefine or a radStep "
                         "that says that there is more to do");
+    const char *refusal = solve_state_refusal(&solution->solve);
+    if (refusal)
+        return api_fail(device, RAD_ERROR_UNSUPPORTED, "%s", refusal);
     if (solve_state_make(&solution->state, &solution->solve, part, &cause) < 0)
         return api_fail(device, api_cause(cause), "%s", cause);
     return 0;

@@ -96,10 +96,8 @@ static int is_within(const struct hierarchy *h, uint32_t a, uint32_t b)
 
 static int is_link(const struct hierarchy *h, const struct link *l)
 {
-    return l->receiver < h->count && l->emitter < h->count && h->elements[l->receiver].vertices
-           && h->elements[l->emitter].vertices && !is_within(h, l->receiver, l->emitter)
-           && isfinite(l->form_factor) && l->form_factor >= 0 && l->visibility <= LINK_VISIBLE
-           && l->mark < LINK_MARKS;
+    return link_may_be(l, h->count) && h->elements[l->receiver].vertices
+           && h->elements[l->emitter].vertices && !is_within(h, l->receiver, l->emitter);
 }
 
 static int read_links(struct exchange_state *s, struct refinement *r)

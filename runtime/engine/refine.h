@@ -3,6 +3,7 @@
 #ifndef REFINE_H
 #define REFINE_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include "engine/limits.h"
@@ -20,6 +21,14 @@ struct link {
 };
 
 enum { LINK_VISIBLE = 1 << 14, LINK_MARKS = 8 };
+
+/* Of a link that was read, and whose checks say that it is what was written: may one of so many
+ * elements be so? */
+static inline int link_may_be(const struct link *l, uint64_t elements)
+{
+    return l->receiver < elements && l->emitter < elements && isfinite(l->form_factor)
+           && l->form_factor >= 0 && l->visibility <= LINK_VISIBLE && l->mark < LINK_MARKS;
+}
 
 /* The mark by which graphs say that a link was too large and could not be split
  * (runtime/tools/mark.h). */

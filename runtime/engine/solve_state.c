@@ -110,14 +110,14 @@ static void shape(struct RadStatePart part[RAD_STATE_PARTS], uint64_t splits, ui
 
 /* ---- making one */
 
-static int keeps_more(const struct solve *s)
+const char *solve_state_refusal(const struct solve *s)
 {
-    return s->error.target > 0 || s->ranking.asked || s->importance.capacity > 0
-           || s->bracket.capacity > 0;
+    const int more = s->error.target > 0 || s->ranking.asked || s->importance.capacity > 0
+                     || s->bracket.capacity > 0;
+    return more ? "checkpoints are not for oracles that compare errors of all links, read "
+                  "importance or enclose the solution"
+                : NULL;
 }
-
-static const char more[] = "checkpoints are not for oracles that compare errors of all links, read "
-                           "importance or enclose the solution";
 
 /* The links that this rank counts: into state->links, unless it is all that there are. */
 static int take_links(struct solve_state *state, const struct solve *s, struct RadStatePart *part)
@@ -145,8 +145,8 @@ int solve_state_make(struct solve_state *state, const struct solve *s,
     struct ranks *ranks = s->problem.options.ranks;
     uint64_t *head = state->head;
     solve_state_free(state);
-    *cause = more;
-    if (keeps_more(s))
+    *cause = solve_state_refusal(s);
+    if (*cause)
         return -1;
     *cause = "out of memory for a checkpoint";
     shape(part, splits, h->count, 0, s->problem.bands);
@@ -254,8 +254,7 @@ static int are_whole(const struct solve *s, const struct RadStatePart *part, con
             return 0;
     const struct link *links = part[RAD_STATE_LINK].data;
     for (uint64_t i = 0; i < part[RAD_STATE_LINK].rows; i++)
-        if (links[i].receiver >= elements || links[i].emitter >= elements
-            || links[i].mark >= LINK_MARKS || !isfinite(links[i].form_factor))
+        if (!link_may_be(&links[i], elements))
             return 0;
     return 1;
 }
@@ -345,8 +344,10 @@ int solve_state_take(struct solve *s, const struct refiner *refiner,
     *refused = 0;
     if (solve_begin(s, refiner, cause) < 0)
         return -1;
-    if (keeps_more(s)) {
-        *cause = more;
+    const char *refusal = solve_state_refusal(s);
+    if (refusal) {
+        *refused = 1;
+        *cause = refusal;
         return -1;
     }
     const int splits = split_again(&s->hierarchy, &part[RAD_STATE_SPLIT]);

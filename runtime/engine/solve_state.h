@@ -43,6 +43,9 @@ struct solve_state {
     struct link *links;     /* those that this rank counts; NULL: all that it has */
 };
 
+/* Why a solve has no state, as its oracle keeps more; NULL: it has one. */
+const char *solve_state_refusal(const struct solve *s);
+
 /* The solve's state, in parts that are good until it goes on; it has links. On all ranks. Returns
  * 0, or -1 with *cause, on all ranks. */
 int solve_state_make(struct solve_state *state, const struct solve *s,

@@ -1508,6 +1508,27 @@ START_TEST(test_count_side_by_side)
 END_TEST
 
 /* Handles keep alive what they were made from, in whatever order they are given up. */
+/* What compares all links, or ranks them, keeps more than a state has. */
+START_TEST(test_no_state)
+{
+    static const char *const oracles[] = {"bracket", "error_control", "ranked"};
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    for (size_t i = 0; i < sizeof oracles / sizeof *oracles; i++) {
+        struct RadStatePart part[RAD_STATE_PARTS];
+        RadOracle oracle = radNewOracle(device, oracles[i], RAD_RELEASE_FLAT);
+        RadSolution solution = radNewSolution(scene, oracle, NULL);
+        ck_assert_int_eq(radRefine(solution), 0);
+        ck_assert_msg(radGetSolutionState(solution, part) == -1, "%s", oracles[i]);
+        expect_error(device, RAD_ERROR_UNSUPPORTED, "checkpoints are not for oracles");
+        radReleaseSolution(solution);
+        radReleaseOracle(oracle);
+    }
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 START_TEST(test_lifetimes)
 {
     RadDevice device = radNewDevice(NULL);
@@ -1562,6 +1583,7 @@ int main(void)
     tcase_add_test(t, test_causes_refused);
     tcase_add_test(t, test_side_by_side);
     tcase_add_test(t, test_count_side_by_side);
+    tcase_add_test(t, test_no_state);
     tcase_add_test(t, test_lifetimes);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
