@@ -23,6 +23,8 @@
 #include <string.h>
 #include "engine/reference.h"
 #include "engine/reflected_light.h"
+#include "engine/state_identity.h"
+#include "engine/state_stream.h"
 #include "engine/solve_tracer.h"
 #include "kernel/constants.h"
 
@@ -343,39 +345,19 @@ int reference_summary(const struct reference *r, struct reference_summary *s)
 
 struct state_head {
     char name[8];
+    uint64_t version;             /* and this machine's order of bytes */
     uint64_t check;               /* of all bytes behind it */
     uint64_t scene, faces, bands; /* whose it is */
     uint64_t particles, paths;    /* how many */
     uint64_t particle_rays, path_rays;
     double square[3];
 };
-static const char STATE_NAME[8] = "radref2";
-
-static uint64_t mix(uint64_t hash, const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    for (; size >= 8; size -= 8, at += 8) {
-        uint64_t word;
-        memcpy(&word, at, 8);
-        hash = hash64(hash + HASH_STEP + word);
-    }
-    for (; size > 0; size--)
-        hash = hash64(hash + HASH_STEP + *at++);
-    return hash;
-}
+static const char STATE_NAME[8] = "radref3";
 
 /* Of all that paths depend on: faces, light, and how many random numbers go where. */
 static uint64_t identity(const struct reference *r)
 {
-    const struct problem *p = &r->solve.problem;
-    size_t values = (size_t)p->scene->face_count * p->bands;
-    uint64_t hash = mix(REPLICATES, p->exitance, values * sizeof *p->exitance);
-    hash = mix(hash, p->reflectance, values * sizeof *p->reflectance);
-    for (uint32_t i = 0; i < p->scene->face_count; i++) {
-        const struct face *f = &p->scene->faces[i];
-        hash = mix(hash + f->input + f->back, f->vertex, f->vertices * sizeof *f->vertex);
-    }
-    return hash;
+    return state_identity_scene(&r->solve.problem, &r->solve.hierarchy) + REPLICATES;
 }
 
 enum { PARTS = 1 + 2 * PATH_HALVES };
@@ -411,14 +393,15 @@ size_t reference_state_size(const struct reference *r)
 static uint64_t check(const unsigned char *bytes, size_t size)
 {
     size_t from = offsetof(struct state_head, scene);
-    return mix(size, bytes + from, size - from);
+    return state_mix(size, bytes + from, size - from);
 }
 
 void reference_state(const struct reference *r, unsigned char *bytes)
 {
     struct part part[PARTS];
     int count = parts(r, part);
-    struct state_head head = {.scene = identity(r),
+    struct state_head head = {.version = state_identity_version(),
+                              .scene = identity(r),
                               .faces = r->tally.faces,
                               .bands = r->tally.bands,
                               .particles = r->tally.particles,
@@ -445,7 +428,8 @@ int reference_restore(struct reference *r, const unsigned char *bytes, size_t si
     if (size < sizeof head)
         return -1;
     memcpy(&head, bytes, sizeof head);
-    if (memcmp(head.name, STATE_NAME, sizeof head.name) != 0)
+    if (memcmp(head.name, STATE_NAME, sizeof head.name) != 0
+        || head.version != state_identity_version())
         return -1;
     *cause = "it is damaged";
     if (head.check != check(bytes, size))

@@ -22,13 +22,6 @@ enum { SEEN = 4 };
 
 /* ---- what it is of */
 
-static uint64_t hash_scene(const struct problem *p, const struct hierarchy *h)
-{
-    const size_t values = (size_t)h->face_count * p->bands;
-    uint64_t hash = state_mix(state_identity_faces(h), p->exitance, values * sizeof *p->exitance);
-    return state_mix(hash, p->reflectance, values * sizeof *p->reflectance);
-}
-
 static uint64_t hash_oracle(const struct refiner *refiner)
 {
     const char *graph = refiner->fingerprint ? NULL : refiner_graph(refiner, NULL);
@@ -48,8 +41,8 @@ static uint64_t hash_options(const struct solve_options *o)
 static void name_work(uint64_t *head, const struct solve *s, const struct refiner *refiner)
 {
     head[STATE_NAME] = NAME;
-    head[STATE_VERSION] = state_identity_text(RUNTIME_ABI, RADIOSITY_VERSION);
-    head[STATE_SCENE] = hash_scene(&s->problem, &s->hierarchy);
+    head[STATE_VERSION] = state_identity_version();
+    head[STATE_SCENE] = state_identity_scene(&s->problem, &s->hierarchy);
     head[STATE_ORACLE] = hash_oracle(refiner);
     head[STATE_OPTIONS] = hash_options(&s->problem.options);
     head[STATE_BUILT] = s->hierarchy.built;

@@ -18,6 +18,18 @@ uint64_t state_identity_faces(const struct hierarchy *h)
     return hash;
 }
 
+uint64_t state_identity_scene(const struct problem *p, const struct hierarchy *h)
+{
+    const size_t values = (size_t)h->face_count * p->bands;
+    uint64_t hash = state_mix(state_identity_faces(h), p->exitance, values * sizeof *p->exitance);
+    return state_mix(hash, p->reflectance, values * sizeof *p->reflectance);
+}
+
+uint64_t state_identity_version(void)
+{
+    return state_identity_text(RUNTIME_ABI, RADIOSITY_VERSION);
+}
+
 uint64_t state_identity_text(uint64_t hash, const char *text)
 {
     return text ? state_mix(hash + 1, text, strlen(text)) : hash;
