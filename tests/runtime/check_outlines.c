@@ -65,17 +65,56 @@ static int compare_faces(const void *a, const void *b)
     return *x < *y ? -1 : *x > *y;
 }
 
+/* The lower square looking at the upper one past what stands between, both ways. */
+struct look {
+    struct exchange_tree t;
+    const struct element *low;
+    uint32_t list[SIGHT_LIST];
+    int count;
+    struct sight sight;
+    struct sight_between between;
+};
+
+static void look_open(struct look *l, const struct scene *s)
+{
+    struct shaft shaft;
+    struct polygon whole = {.n = 4};
+    open_tree(&l->t, s);
+    l->low = face_of(&l->t, 0);
+    const struct element *high = face_of(&l->t, 1);
+    memcpy(whole.v, high->vertex, 4 * sizeof *whole.v);
+    ck_assert(shaft_open(&shaft, l->low, high, &l->t.host));
+    l->count = candidates_find(&l->t.h, &shaft, l->t.host.ray_offset, SIGHT_LIST, l->list);
+    ck_assert_int_le(l->count, SIGHT_CUT);
+    qsort(l->list, (size_t)l->count, sizeof *l->list, compare_faces);
+    sight_open(&l->sight, high, &whole, l->t.host.ray_offset);
+    ck_assert_int_eq(sight_between_find(&l->between, &l->t, &shaft, l->list, l->count, 0),
+                     BETWEEN_SOME);
+    ck_assert_int_eq(sight_between_place(&l->between, &l->t, &l->sight), 0);
+}
+
+static double look_by_outlines(struct look *l, const double x[3], double *clear)
+{
+    return sight_past(&l->sight, x, l->low->normal, l->t.host.ray_offset, &l->between, clear);
+}
+
+/* Past the first `count` of them. */
+static double look_by_faces(const struct look *l, const double x[3], int count, double *clear)
+{
+    return sight_factor(&l->sight, x, l->low->normal, l->t.host.ray_offset, &l->t, l->list, count,
+                        clear);
+}
+
 /* Two squares above each other and what chance puts between: one smooth ball, dented ones, a box
  * and loose triangles, which may cross; both ways to see the upper one from points of the lower
  * one. */
 START_TEST(test_both_ways)
 {
-    static struct sight_between between;
+    static struct look l;
     uint64_t state = (uint64_t)_i;
     double most = 0, partial = 0, points = 0;
     for (int scene = 0; scene < 12; scene++) {
         struct scene s;
-        struct exchange_tree t;
         open_squares(&s);
         for (int ball = 0; ball <= scene % 3; ball++) {
             const double c[3] = {chance(&state), chance(&state), 0.3 + 0.4 * chance(&state)};
@@ -87,36 +126,19 @@ START_TEST(test_both_ways)
                 p[i / 3][i % 3] = i % 3 == 2 ? 0.1 + chance(&state) : chance(&state);
             made_face(&s, 0, 3, (const double(*)[3])p);
         }
-        open_tree(&t, &s);
-        const struct element *low = face_of(&t, 0), *high = face_of(&t, 1);
-        uint32_t list[SIGHT_LIST];
-        struct shaft shaft;
-        struct sight sight;
-        struct polygon whole = {.n = 4};
-        memcpy(whole.v, high->vertex, 4 * sizeof *whole.v);
-        ck_assert(shaft_open(&shaft, low, high, &t.host));
-        int count = candidates_find(&t.h, &shaft, t.host.ray_offset, SIGHT_LIST, list);
-        ck_assert_int_le(count, SIGHT_CUT);
-        qsort(list, (size_t)count, sizeof *list, compare_faces);
-        sight_open(&sight, high, &whole, t.host.ray_offset);
-        ck_assert_int_eq(sight_between_find(&between, &t, &shaft, list, count, 0), BETWEEN_SOME);
-        ck_assert_int_eq(sight_between_place(&between, &t, &sight), 0);
+        look_open(&l, &s);
         for (int i = 0; i < 40; i++) {
             const double x[3] = {chance(&state), chance(&state), 0};
-            double clear[2],
-                by_outlines =
-                    sight_past(&sight, x, low->normal, t.host.ray_offset, &between, &clear[0]),
-                by_faces = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list, count,
-                                        &clear[1]),
-                past_none =
-                    sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list, 0, &clear[1]);
+            double clear[2], by_outlines = look_by_outlines(&l, x, &clear[0]),
+                             by_faces = look_by_faces(&l, x, l.count, &clear[1]),
+                             past_none = look_by_faces(&l, x, 0, &clear[1]);
             ck_assert_double_eq(clear[0], past_none);
             ck_assert_double_eq(clear[1], past_none);
             most = fmax(most, fabs(by_outlines - by_faces));
             partial += by_faces < 0.999 * past_none;
             points++;
         }
-        exchange_tree_close(&t);
+        exchange_tree_close(&l.t);
         made_close(&s);
     }
     ck_assert_double_gt(partial, 0.5 * points);
@@ -364,15 +386,10 @@ END_TEST
  * alone would be. Both ways hold a part with as many corners. */
 START_TEST(test_round)
 {
-    static struct sight_between between;
+    static struct look l;
     const int corners[] = {40, 70, 100, 160}, n = corners[_i / 2], hole = _i % 2;
     const double size = 0.1, pi = acos(-1), at = 0.4;
     struct scene s;
-    struct exchange_tree t;
-    uint32_t list[SIGHT_LIST];
-    struct shaft shaft;
-    struct sight sight;
-    struct polygon whole = {.n = 4};
     open_squares(&s);
     for (int i = 0; i < n; i++) {
         const double a[2] = {2 * pi * i / n, 2 * pi * (i + 1) / n}, far = 20 * size,
@@ -385,16 +402,7 @@ START_TEST(test_round)
                                    {p[1][0], p[1][1], at}};
         made_face(&s, 0, hole ? 4 : 3, hole ? wall : disc);
     }
-    open_tree(&t, &s);
-    const struct element *low = face_of(&t, 0), *high = face_of(&t, 1);
-    memcpy(whole.v, high->vertex, 4 * sizeof *whole.v);
-    ck_assert(shaft_open(&shaft, low, high, &t.host));
-    const int count = candidates_find(&t.h, &shaft, t.host.ray_offset, SIGHT_LIST, list);
-    qsort(list, (size_t)count, sizeof *list, compare_faces);
-    ck_assert_int_le(count, SIGHT_CUT);
-    sight_open(&sight, high, &whole, t.host.ray_offset);
-    ck_assert_int_eq(sight_between_find(&between, &t, &shaft, list, count, 0), BETWEEN_SOME);
-    ck_assert_int_eq(sight_between_place(&between, &t, &sight), 0);
+    look_open(&l, &s);
     for (int k = 0; k < 9; k++) {
         const double x[3] = {0.45 + 0.05 * (k % 3), 0.45 + 0.05 * (k / 3), 0};
         double clear, disc = 0;
@@ -404,15 +412,13 @@ START_TEST(test_round)
                          h[2] = {0.5 + size * cos(a[1]) - x[0], 0.5 + size * sin(a[1]) - x[1]};
             disc += lambert_edge(g[0], g[1], at, h[0], h[1], at, 0, 0, 1) / (2 * pi);
         }
-        const double by_outlines =
-                         sight_past(&sight, x, low->normal, t.host.ray_offset, &between, &clear),
-                     by_faces = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list,
-                                             count, &clear),
+        const double by_outlines = look_by_outlines(&l, x, &clear),
+                     by_faces = look_by_faces(&l, x, l.count, &clear),
                      right = hole ? disc : clear - disc;
         ck_assert_double_eq_tol(by_outlines, right, 2e-6); /* points start off their surface */
         ck_assert_double_eq_tol(by_faces, right, 2e-6);
     }
-    exchange_tree_close(&t);
+    exchange_tree_close(&l.t);
     made_close(&s);
 }
 END_TEST
@@ -421,7 +427,7 @@ END_TEST
  * they meet: the middle of a part is on an edge that two faces have. */
 START_TEST(test_misfit)
 {
-    static struct sight_between between;
+    static struct look l;
     static const double misfit[] = {0, 1e-16, 1e-15, 1e-13, 1e-11, 1e-9, 1e-8};
     const double slant = sqrt(0.5);
     uint64_t state = 1;
@@ -430,7 +436,6 @@ START_TEST(test_misfit)
         const double turn[2][2][2] = {{{1, 0}, {slant, slant}},
                                       {{slant, -slant}, {1, -misfit[i] / 0.3}}};
         struct scene s;
-        struct exchange_tree t;
         open_squares(&s);
         for (int eighth = 0; eighth < 2; eighth++) {
             double p[4][3];
@@ -449,30 +454,16 @@ START_TEST(test_misfit)
             for (int k = 0; k < 2; k++)
                 made_face(&s, 0, 3, half[k]);
         }
-        open_tree(&t, &s);
-        const struct element *low = face_of(&t, 0), *high = face_of(&t, 1);
-        uint32_t list[SIGHT_LIST];
-        struct shaft shaft;
-        struct sight sight;
-        struct polygon whole = {.n = 4};
-        memcpy(whole.v, high->vertex, 4 * sizeof *whole.v);
-        ck_assert(shaft_open(&shaft, low, high, &t.host));
-        int count = candidates_find(&t.h, &shaft, t.host.ray_offset, SIGHT_LIST, list);
-        qsort(list, (size_t)count, sizeof *list, compare_faces);
-        sight_open(&sight, high, &whole, t.host.ray_offset);
-        ck_assert_int_eq(sight_between_find(&between, &t, &shaft, list, count, 0), BETWEEN_SOME);
-        ck_assert_int_eq(sight_between_place(&between, &t, &sight), 0);
+        look_open(&l, &s);
         for (int at = 0; at < 400; at++) {
             const double x[3] = {chance(&state), chance(&state), 0};
             double clear;
-            const double by_outlines = sight_past(&sight, x, low->normal, t.host.ray_offset,
-                                                  &between, &clear),
-                         by_faces = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t,
-                                                 list, count, &clear);
+            const double by_outlines = look_by_outlines(&l, x, &clear),
+                         by_faces = look_by_faces(&l, x, l.count, &clear);
             ck_assert_msg(fabs(by_outlines - by_faces) < 1e-6, "misfit %g: %g, %g", misfit[i],
                           by_outlines, by_faces);
         }
-        exchange_tree_close(&t);
+        exchange_tree_close(&l.t);
         made_close(&s);
     }
 }
