@@ -198,7 +198,7 @@ leaves of one size | runtime/engine/measured_error.c | s/rays \* SMALL <= landin
 ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflectance\[at\])/area/ | runtime/check_ambient
 backs of another face | runtime/particles/particles.c | s/tally->back\[ray_meets_back(met)\]/tally->back[0]/ | runtime/check_backs
 backs of a replicate | runtime/engine/black_backs.c | s,/ REPLICATES / tally->power,/ tally->power, | runtime/check_backs
-names of other faces  | runtime/engine/dim_faces.c | s/return faces\[d->face\[i\]\].input/return i + 0 * faces[0].input/ | solver/check_backs
+names of other faces | runtime/engine/dim_faces.c | s/return faces\[d->face\[i\]\].input/return i + 0 * faces[0].input/ | solver/check_unseen
 all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine\[1\] - mine\[0\])/tally->held = h->face_count/ | runtime/check_own_counts
 letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
 quarters by their place | runtime/hierarchy/quarters.h | s/ + (number - q->child\[leaf\]);/;/ | runtime/check_own_counts
