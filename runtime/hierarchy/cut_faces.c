@@ -30,6 +30,7 @@
 #include "hierarchy/bvh.h"
 #include "hierarchy/cut_lines.h"
 #include "hierarchy/polygon.h"
+#include "hierarchy/replace_faces.h"
 #include "kernel/constants.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
@@ -45,11 +46,10 @@ struct part {
     double covered; /* length of contacts there (m); 0: it is not to be cut */
 };
 
-/* Where the parts of a face that was cut stand, in some cutter's list. */
+/* Where the parts of a face that was cut stand in its cutter's list. */
 struct cutting {
     uint32_t face;
     size_t first, count;
-    const struct cutter *by;
 };
 
 /* One thread's. */
@@ -238,57 +238,32 @@ static int cut_face(struct cutter *c, uint32_t i)
     if (array_reserve(&c->cuttings, c->cutting_count + 1, &c->cutting_capacity, sizeof *c->cuttings)
         < 0)
         return -1;
-    c->cuttings[c->cutting_count++] = (struct cutting){i, before, c->out_count - before, c};
+    c->cuttings[c->cutting_count++] = (struct cutting){i, before, c->out_count - before};
     return 0;
-}
-
-static int by_face(const void *a, const void *b)
-{
-    const struct cutting *x = a, *y = b;
-    return (x->face > y->face) - (x->face < y->face);
 }
 
 /* Put the parts in the places of the faces they were cut from. */
-static int replace_faces(struct scene *scene, const struct cutter *cutters, int threads)
+static int put_parts(struct scene *scene, const struct cutter *cutters, int threads)
 {
-    size_t cut_faces = 0, most = scene->face_count, next = 0;
-    for (int t = 0; t < threads; t++) {
-        cut_faces += cutters[t].cutting_count;
-        most += cutters[t].out_count;
-    }
-    if (!cut_faces)
-        return 0;
-    struct cutting *all = malloc(cut_faces * sizeof *all);
-    struct face *faces = most <= UINT32_MAX ? malloc(most * sizeof *faces) : NULL;
-    if (!all || !faces) {
-        free(all);
-        free(faces);
-        return -1;
-    }
-    cut_faces = 0;
+    size_t count = 0;
     for (int t = 0; t < threads; t++)
-        for (size_t i = 0; i < cutters[t].cutting_count; i++)
-            all[cut_faces++] = cutters[t].cuttings[i];
-    qsort(all, cut_faces, sizeof *all, by_face);
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < scene->face_count; i++) {
-        const struct cutting *x = &all[next];
-        if (next == cut_faces || x->face != i) {
-            faces[n++] = scene->faces[i];
-            continue;
+        count += cutters[t].cutting_count;
+    if (!count)
+        return 0;
+    struct replacement *all = malloc(count * sizeof *all);
+    if (!all)
+        return -1;
+    count = 0;
+    for (int t = 0; t < threads; t++)
+        for (size_t i = 0; i < cutters[t].cutting_count; i++) {
+            const struct cutting *x = &cutters[t].cuttings[i];
+            all[count++] = (struct replacement){x->face, x->count, &cutters[t].out[x->first]};
+            scene->cut++;
+            scene->parts += (uint32_t)(x->count >> scene_is_pair(scene, x->face));
         }
-        memcpy(&faces[n], &x->by->out[x->first], x->count * sizeof *faces);
-        n += (uint32_t)x->count;
-        scene->cut++;
-        scene->parts += (uint32_t)(x->count >> scene_is_pair(scene, i));
-        i += (uint32_t)scene_is_pair(scene, i);
-        next++;
-    }
+    const int status = replace_faces(scene, all, count);
     free(all);
-    free(scene->faces);
-    scene->faces = faces;
-    scene->face_count = n;
-    return 0;
+    return status;
 }
 
 struct all_cutters {
@@ -322,7 +297,7 @@ int scene_cut(struct scene *scene, const struct bvh *tree, int threads)
     thread_pool_run(threads, scene->face_count, 256, cut_some, &all);
     int status = failed;
     if (!status)
-        status = replace_faces(scene, cutters, threads) < 0;
+        status = put_parts(scene, cutters, threads) < 0;
     for (int t = 0; t < threads; t++) {
         free(cutters[t].contacts.contacts);
         free(cutters[t].lines.lines);

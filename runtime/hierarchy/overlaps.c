@@ -20,6 +20,7 @@
 #include "geometry.h"
 #include "hierarchy/bvh.h"
 #include "hierarchy/lids.h"
+#include "hierarchy/replace_faces.h"
 #include "kernel/constants.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
@@ -279,62 +280,64 @@ static uint32_t stays_on(const struct loss *losses, size_t count, const struct l
     return x->on;
 }
 
-/* Put what is left in the places of the faces. Areas of polygons are those of their faces: of two
- * sides that are no longer equal the mean. */
-static int replace_faces(struct scene *s, const struct loss *losses, size_t count, size_t out)
+/* Tell of the losses. lost[]: 1 of polygons that have any. */
+static void tell(struct scene *s, const struct loss *losses, size_t count, uint8_t *lost)
 {
-    size_t most = s->face_count + out;
-    uint8_t *lost = calloc((size_t)s->input_count + 1, 1); /* polygons that have */
-    struct face *faces = most <= UINT32_MAX ? malloc((most + 1) * sizeof *faces) : NULL;
-    if (!faces || !lost) {
-        free(faces);
-        free(lost);
-        return -1;
-    }
-    uint32_t n = 0;
-    for (uint32_t i = 0, next = 0; i < s->face_count; i++) {
-        const struct loss *x = &losses[next];
-        if (next == count || x->face != i) {
-            faces[n++] = s->faces[i];
-            continue;
-        }
-        uint32_t polygon = s->faces[i].input;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t polygon = s->faces[losses[i].face].input;
         if (!lost[polygon] && s->overlaps < RAD_OVERLAPS_NAMED)
             s->overlap[s->overlaps] =
-                (struct RadOverlap){polygon, s->faces[stays_on(losses, count, x)].input};
+                (struct RadOverlap){polygon, s->faces[stays_on(losses, count, &losses[i])].input};
         s->overlaps += !lost[polygon];
-        s->overlap_area += x->area;
-        s->areas[polygon] = 0;
+        s->overlap_area += losses[i].area;
         lost[polygon] = 1;
-        if (x->count)
-            memcpy(&faces[n], &x->by->out[x->first], x->count * sizeof *faces);
-        n += (uint32_t)x->count;
-        i += (uint32_t)scene_is_pair(s, i);
-        next++;
     }
-    free(s->faces);
-    s->faces = faces;
-    s->face_count = n;
-    for (uint32_t i = 0; i < n; i++) {
+}
+
+/* Areas of polygons are those of their faces: of two sides that are no longer equal the mean. */
+static void measure(struct scene *s, const uint8_t *lost)
+{
+    for (uint32_t polygon = 0; polygon < s->input_count; polygon++)
+        if (lost[polygon])
+            s->areas[polygon] = 0;
+    for (uint32_t i = 0; i < s->face_count; i++) {
+        struct face *f = &s->faces[i];
         double normal[3];
-        if (lost[faces[i].input])
-            s->areas[faces[i].input] += polygon_normal(faces[i].vertex, faces[i].vertices, normal)
-                                        / (s->materials[faces[i].material].two_sided ? 2 : 1);
+        if (lost[f->input])
+            s->areas[f->input] += polygon_normal(f->vertex, f->vertices, normal)
+                                  / (s->materials[f->material].two_sided ? 2 : 1);
     }
+}
+
+/* Put what is left in the places of the faces. losses[count], in the order of faces. */
+static int put_rests(struct scene *s, const struct loss *losses, size_t count)
+{
+    uint8_t *lost = calloc((size_t)s->input_count + 1, 1);
+    struct replacement *list = malloc(count * sizeof *list);
+    int failed = !lost || !list;
+    for (size_t i = 0; i < count && !failed; i++) {
+        const struct loss *x = &losses[i];
+        list[i] = (struct replacement){x->face, x->count, x->count ? &x->by->out[x->first] : NULL};
+    }
+    if (!failed) {
+        tell(s, losses, count, lost);
+        failed = replace_faces(s, list, count) < 0;
+    }
+    if (!failed)
+        measure(s, lost);
+    free(list);
     free(lost);
-    return 0;
+    return failed ? -1 : 0;
 }
 
 /* The losses of all threads in the order of faces. Returns 0 or -1. */
 static int replace_all(struct scene *scene, const struct finder *finders, int threads,
                        size_t *count)
 {
-    size_t out = 0, n = 0;
+    size_t n = 0;
     *count = 0;
-    for (int t = 0; t < threads; t++) {
+    for (int t = 0; t < threads; t++)
         *count += finders[t].loss_count;
-        out += finders[t].out_count;
-    }
     if (!*count)
         return 0;
     struct loss *all = malloc(*count * sizeof *all);
@@ -344,7 +347,7 @@ static int replace_all(struct scene *scene, const struct finder *finders, int th
         for (size_t i = 0; i < finders[t].loss_count; i++)
             all[n++] = finders[t].losses[i];
     qsort(all, n, sizeof *all, by_face);
-    int result = replace_faces(scene, all, n, out);
+    const int result = put_rests(scene, all, n);
     free(all);
     return result;
 }
