@@ -416,11 +416,13 @@
  * links say of it have missed light (once in 370 by chance, which then costs split particles);
  * chosen */
 #define REFINER_DIM_MISSED 3.0
-/* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
- * them, 95 %, it is off by 5 %, which a reader may hold every large face to; */
+/* of its light. A polygon whose standard error is no more is known: within 1.96 of them, 95 %, it
+ * is off by 5 %, which a reader may hold every large face to; */
 #define REFINER_DIM_GOAL 0.0255
-/* but some scenes have ten that are dim: where rays are left they go down to this, 99 % */
-#define REFINER_DIM_SURE 0.0194
+/* but of many faces one in twenty is many. Where rays are there for it, none is off by so much, */
+#define REFINER_DIM_OFF 0.05
+/* unless so probably [Bonferroni] */
+#define REFINER_DIM_DOUBT 0.05
 /* particles on a place as large as large faces: where fewer come paths do not end. They know its
  * light to a sixteenth, and a polygon sees many such places. Chosen; with 100 or 1,000 large faces
  * of maze_8 are as wrong for as many rays */
