@@ -394,7 +394,8 @@ const struct command_row command_rows[COMMANDS] = {
          "share of the reflected light; then hold the two against each other. Independent\n"
          "of links and oracles: to judge solutions by, with radiosity error. The table has\n"
          "columns face, area, B_k and se_k, the standard error of B_k. A run that is\n"
-         "stopped goes on from FILE.csv.state when it is started again.\n",
+         "stopped goes on from FILE.csv.state when it is started again; so does one that\n"
+         "has seen no light reflected (exit status 3).\n",
          "radiosity reference room.obj -o ref.csv --accuracy 0.5%"},
     [COMMAND_ERROR] =
         {"error", "FACES.csv REF.csv", "how far a table of faces is from a reference",
