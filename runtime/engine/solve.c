@@ -617,16 +617,18 @@ int solve_step(struct solve *s, const char **cause)
     int few = (uint64_t)changed * SETTLED <= s->report.counts.links,
         linear = p->options.linear && !(s->error.target > 0) && !s->ranking.asked,
         done = linear ? few : changed == 0 && !rough;
+    const int most = s->error.target > 0 || s->ranking.asked ? PASSES_IN_STEPS : PASSES,
+              last = done || s->report.passes >= most;
     s->report.converged = (s->report.converged || rough) && done;
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
     note_ray_seconds(s);
-    if (done && p->options.linear && solve_linear(s, cause) < 0)
+    if (last && p->options.linear && solve_linear(s, cause) < 0)
         return -1;
     if (p->options.no_links && !p->options.unit)
         ambient_light(s);
     solve_sum_power(s);
-    return !done;
+    return !last;
 }
 
 int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)
@@ -654,17 +656,14 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
     int more = 1;
     if (!s->refinement.hierarchy && solve_refine(s, refiner, cause) < 0)
         return -1;
-    const int most = s->error.target > 0 || s->ranking.asked ? PASSES_IN_STEPS : PASSES;
-    while (more > 0 && s->report.passes < most) {
+    while (more > 0) {
         if (s->between && s->between(s->between_context)) {
             s->report.cancelled = 1;
             return fail(s, "", cause);
         }
         more = solve_step(s, cause);
     }
-    if (more > 0 && s->problem.options.linear)
-        more = solve_linear(s, cause);
-    return more < 0 ? -1 : 0;
+    return more;
 }
 
 void solve_forget_mended(struct solve *s)

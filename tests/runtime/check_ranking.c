@@ -114,6 +114,34 @@ START_TEST(test_worst_first)
 }
 END_TEST
 
+/* One link is split in a pass, for ever: step by step there are as many passes as at one go. */
+START_TEST(test_last)
+{
+    char *const settings[] = {(char *)"share=1e-5", (char *)"relative=1e-9", NULL};
+    struct solve_options options = quick(2);
+    struct scene scene;
+    struct solve s, t;
+    const char *cause;
+    furnished(&scene, 1);
+    struct refiner *r = oracles_open("ranked", RELEASE_FLAT);
+    ck_assert(r && oracles_set(r, settings, 2) == 0);
+    ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
+    ck_assert_int_eq(solve_refine(&s, r, &cause), 0);
+    int steps = 1;
+    while (solve_step(&s, &cause) > 0 && steps < 1000)
+        steps++;
+    ck_assert_int_eq(s.report.converged, 0);
+    ck_assert_int_eq(solve_open(&t, &scene, &options, &cause), 0);
+    ck_assert_int_eq(solve_run(&t, r, &cause), 0);
+    ck_assert_int_eq(t.report.passes, steps);
+    ck_assert_int_eq(s.report.passes, steps);
+    solve_close(&t);
+    solve_close(&s);
+    refiner_close(r);
+    made_close(&scene);
+}
+END_TEST
+
 /* Releases and threads decide alike, pass by pass. */
 START_TEST(test_alike)
 {
@@ -215,6 +243,7 @@ int main(void)
     tcase_set_timeout(c, 600);
     tcase_add_loop_test(c, test_impact, 0, 2);
     tcase_add_test(c, test_worst_first);
+    tcase_add_test(c, test_last);
     tcase_add_loop_test(c, test_alike, 0, 2);
     tcase_add_test(c, test_worth);
     suite_add_tcase(suite, c);

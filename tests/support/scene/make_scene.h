@@ -1,4 +1,4 @@
-/* make_scene.h - small scenes made in memory, for tests and studies.
+/* make_scene.h - small scenes made in memory.
  * SPDX-License-Identifier: MIT */
 #ifndef MAKE_SCENE_H
 #define MAKE_SCENE_H
