@@ -23,7 +23,7 @@ BEGIN {
 END2
 awk -f "$top/tests/solver/box.awk" -f room.awk >room.obj
 
-count=$((count + 10))
+count=$((count + 11))
 "$radiosity" solve room.obj --json json >out 2>err || failed "solve: $(tail -n 1 err)"
 grep -q '^error     not known: none of .* particles was reflected; less than about .* W is$' out || failed "summary: $(grep '^error' out)"
 grep -q 'warning: none of .* nothing is known but that' err || failed "warning: $(cat err)"
@@ -40,4 +40,8 @@ status=$?
 { [ $status = 3 ] && grep -q '^none of .* particles and .* paths tells of light' out; } || failed "reference: $status, $(tail -n 1 out)"
 { [ "$(grep -c '"\(particles\|paths\|both\)": null' json)" = 3 ] && grep -q '"unseen": [0-9.]*e-' json; } || failed "reference, json: $(grep unseen json)"
 { [ -s r.csv ] && [ -s r.csv.state ]; } || failed "reference: what it took is lost"
+# a lamp that looks away is not what chance has hidden
+sed 's/^f 1 2 3 4$/f 4 3 2 1/' room.obj >away.obj
+"$radiosity" solve away.obj >out 2>err
+grep -q '^error     none: no light is reflected, as no lamp and no face that reflects look at each other$' out || failed "a lamp turned away: $(grep '^error' out)"
 finish unseen
