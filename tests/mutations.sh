@@ -31,7 +31,7 @@ rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row
 groups pay nothing | runtime/engine/row_sums.c | s/if (rows.sum > most \* rows.area)/if (0 \&\& rows.sum > most * rows.area)/ | runtime/check_transport
 groups pay all | runtime/engine/row_sums.c | s/fmax(0, (most \* rows->area - sure) \/ (all - sure))/0 * most/ | runtime/check_transport
 what sees nothing is looked at | runtime/engine/dim_paths.h | s/p->sighted == 0/p->sighted > p->paths/ | runtime/check_dim_faces
-middles of parts lie on edges | runtime/engine/sight_outlines.c | s/share += GOLDEN/share += 1/ | runtime/check_outlines
+middles of parts lie on edges | runtime/engine/sight_outlines.c | s/1 + hash_unit((uint64_t)i)/1 + 0 * hash_unit((uint64_t)i)/ | runtime/check_outlines
 shades seen from the edge tell | runtime/engine/sight_missed.c | s/> EDGE_ON \* radius/>= 0 * radius/ | runtime/check_sheets
 the ray in a joint speaks for all | runtime/engine/sight_between.c | s/line < 3; line/line < 1; line/ | runtime/check_sheets
 paths are held against particles that saw nothing | runtime/engine/path_mending.c | s/fmax(of_particles, tally_power_of_one(particles) . by_paths)/fmax(of_particles, 0 * by_paths)/ | runtime/check_path_mending

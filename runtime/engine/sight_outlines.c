@@ -13,6 +13,7 @@
  * 1980; put together here]
  * SPDX-License-Identifier: MIT */
 #include "engine/sight_outlines.h"
+#include "kernel/hash.h"
 
 /* An edge of the outline as its shadow in the plane, and the line it is part of: on it a u + b v =
  * c. */
@@ -48,26 +49,23 @@ static void cast_edges(struct cutting *c, const struct outline_cell *cell)
     }
 }
 
-/* The sequence of its multiples, less whole ones, comes near no value twice. */
-static const double GOLDEN = 0.6180339887498949;
-
 /* A part that so many edges still run through is worth a look at what hides all of it: a ray more
  * to one that is cut into more than as many. Chosen. */
 enum { WORTH_A_LOOK = 8 };
 
 /* A block with a face that the ray to somewhere within a part meets; -1: there is none. Corners
- * count unlike each other: midway between them run edges where two faces go on into each other, as
- * the diagonals of squares, and where these do not fit to the last digit a ray slips through. */
+ * count by chance: midway between them, and on the axes of what is regular, run edges where two
+ * faces go on into each other, as the diagonals of squares and the spokes of hexagons, and where
+ * these do not fit to the last digit a ray slips through. */
 static int hides_inside(const struct cutting *c, const struct outline_cell *cell)
 {
     struct sight_ray ray = {.from = {c->from[0], c->from[1], c->from[2]}};
-    double all = 0, share = 0;
+    double all = 0;
     for (int i = 0; i < cell->n; i++) {
-        share += GOLDEN;
-        share -= share >= 1;
+        const double counts = 1 + hash_unit((uint64_t)i);
         for (int k = 0; k < 2; k++)
-            ray.to[k] += cell->p[i][k] * (1 + share);
-        all += 1 + share;
+            ray.to[k] += cell->p[i][k] * counts;
+        all += counts;
     }
     for (int k = 0; k < 2; k++)
         ray.to[k] /= all;

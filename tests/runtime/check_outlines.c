@@ -423,37 +423,37 @@ START_TEST(test_round)
 }
 END_TEST
 
-/* Two eighths of a ring between, of two triangles each, which do not fit to the last digits where
- * they meet: the middle of a part is on an edge that two faces have. */
+/* A sheet between: two eighths of a ring, of two triangles each, or a disc of `sectors`. */
+static void add_sheet(struct scene *s, int sectors, double misfit, uint64_t *state)
+{
+    const double step = sectors ? 2 * acos(-1) / sectors : acos(-1) / 4;
+    for (int i = 0; i < (sectors ? sectors : 4); i++) {
+        const int half = sectors ? 0 : i % 2; /* of an eighth */
+        const double from = step * (sectors ? i : i / 2), to = from + step,
+                     inner = sectors ? 0 : 0.15, outer = 0.3;
+        const double angle[3] = {half ? to : from, from, to},
+                     radius[3] = {inner, half ? inner : outer, outer};
+        double p[3][3];
+        for (int c = 0; c < 3; c++) {
+            p[c][0] = 0.5 + radius[c] * cos(angle[c]) + misfit * (2 * chance(state) - 1);
+            p[c][1] = 0.5 + radius[c] * sin(angle[c]) + misfit * (2 * chance(state) - 1);
+            p[c][2] = 0.5;
+        }
+        made_face(s, 0, 3, (const double(*)[3])p);
+    }
+}
+
+/* Its faces do not fit to the last digits where they meet: the middle of a part, which is on an
+ * edge that two have, tells nothing. */
 START_TEST(test_misfit)
 {
     static struct look l;
-    static const double misfit[] = {0, 1e-16, 1e-15, 1e-13, 1e-11, 1e-9, 1e-8};
-    const double slant = sqrt(0.5);
+    static const double misfit[] = {0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-9, 1e-8};
     uint64_t state = 1;
     for (size_t i = 0; i < sizeof misfit / sizeof *misfit; i++) {
-        /* of either eighth: corners of the inner and the outer rim */
-        const double turn[2][2][2] = {{{1, 0}, {slant, slant}},
-                                      {{slant, -slant}, {1, -misfit[i] / 0.3}}};
         struct scene s;
         open_squares(&s);
-        for (int eighth = 0; eighth < 2; eighth++) {
-            double p[4][3];
-            for (int c = 0; c < 4; c++) {
-                const double radius = c == 0 || c == 3 ? 0.15 : 0.3;
-                for (int k = 0; k < 2; k++)
-                    p[c][k] = 0.5 + radius * turn[eighth][c > 1][k];
-                p[c][2] = 0.5;
-            }
-            const double half[2][3][3] = {{{p[0][0], p[0][1], p[0][2]},
-                                           {p[1][0], p[1][1], p[1][2]},
-                                           {p[2][0], p[2][1], p[2][2]}},
-                                          {{p[0][0], p[0][1], p[0][2]},
-                                           {p[2][0], p[2][1], p[2][2]},
-                                           {p[3][0], p[3][1], p[3][2]}}};
-            for (int k = 0; k < 2; k++)
-                made_face(&s, 0, 3, half[k]);
-        }
+        add_sheet(&s, _i ? _i + 2 : 0, misfit[i], &state);
         look_open(&l, &s);
         for (int at = 0; at < 400; at++) {
             const double x[3] = {chance(&state), chance(&state), 0};
@@ -479,7 +479,7 @@ int main(void)
     tcase_add_loop_test(tests, test_loose, 0, under_sanitizers() ? 1 : 3);
     tcase_add_loop_test(tests, test_round, 0, under_sanitizers() ? 2 : 8);
     tcase_add_test(tests, test_hidden);
-    tcase_add_test(tests, test_misfit);
+    tcase_add_loop_test(tests, test_misfit, 0, 7);
     tcase_add_test(tests, test_closed);
     if (!under_sanitizers()) { /* half a minute, of what the others do */
         tcase_add_test(tests, test_many_between);
