@@ -430,7 +430,7 @@ static void add_sheet(struct scene *s, int sectors, double misfit, uint64_t *sta
     for (int i = 0; i < (sectors ? sectors : 4); i++) {
         const int half = sectors ? 0 : i % 2; /* of an eighth */
         const double from = step * (sectors ? i : i / 2), to = from + step,
-                     inner = sectors ? 0 : 0.15, outer = 0.3;
+                     inner = sectors ? 0 : 0.15, outer = sectors ? 0.15 : 0.3;
         const double angle[3] = {half ? to : from, from, to},
                      radius[3] = {inner, half ? inner : outer, outer};
         double p[3][3];
