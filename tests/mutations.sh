@@ -38,7 +38,7 @@ paths are held against particles that saw nothing | runtime/engine/path_mending.
 nothing seen is nothing there | runtime/engine/reflected_light.c | s/        \*variance = tally_power_of_one/        *variance = 0 * tally_power_of_one/ | runtime/check_unseen_light
 faces are surer than all light | runtime/engine/dim_belief.h | s/variance + d->shared \* light/variance + 0 * d->shared * light/ | runtime/check_unseen_light
 what nobody has found light on is dark | runtime/engine/dim_belief.h | s/light > 0 \&\& variance/variance/ | runtime/check_unseen_light
-planes prove nothing | runtime/engine/reflected_light.c | s/^    return 0;/    return 1;/ | runtime/check_unseen_light
+planes prove nothing | runtime/engine/lights_reach.c | s/^    return reach;/    return 1;/ | runtime/check_unseen_light
 one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - left)/ | runtime/check_dim_faces
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces

@@ -312,7 +312,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
     *count = (struct dim_count){0};
     double variance;
-    const double light = reflected_light(&s->problem, &s->hierarchy, tally, &variance);
+    const double light = reflected_light(&s->problem, tally, &variance);
     if (tally->particles == 0 || !(light > 0 || variance > 0))
         return 0;
     int failed = dim_list_open(&d, (uint32_t)most) < 0;

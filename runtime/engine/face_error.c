@@ -674,7 +674,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     }
     f->reflected = c->reflected;
     if (!(f->reflected > 0))
-        show_nothing(f, unseen_light(p, h, tally));
+        show_nothing(f, unseen_light(p, tally));
     find_scales(c);
     find_errors(c);
     if (f->reflected > 0) {

@@ -268,7 +268,7 @@ static double sum_is_above(const struct mend_sums *m, const double *irradiance)
             sum[LINKED] += rho * m->linked[mend_at(m, e, k)];
         }
     mend_add_up(m, sum, SUMS);
-    const double counted = reflected_light(m->op->problem, h, m->tally, &noise),
+    const double counted = reflected_light(m->op->problem, m->tally, &noise),
                  off = sum[MENDED] - counted, left = left_of(sum[LINKED] - counted, noise);
     return copysign(fmax(0, fabs(off) - left), off);
 }

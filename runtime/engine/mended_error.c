@@ -80,8 +80,7 @@ static double power_times(const struct solve *s, const struct tally *tally,
                           const struct mending_goal *goal)
 {
     double variance;
-    const double light = reflected_light(&s->problem, &s->hierarchy, tally, &variance),
-                 most = goal->power * light;
+    const double light = reflected_light(&s->problem, tally, &variance), most = goal->power * light;
     if (!(light > 0))
         return variance > 0 ? 1 / (goal->noise * goal->noise) : 0;
     return most > 0 ? variance / (most * most) : 0;

@@ -25,9 +25,8 @@ enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
 static int agree(const struct solve *s, const struct tally *particles, const struct tally *paths)
 {
     double of_particles, of_paths;
-    const double by_particles =
-                     reflected_light(&s->problem, &s->hierarchy, particles, &of_particles),
-                 by_paths = reflected_light(&s->problem, &s->hierarchy, paths, &of_paths),
+    const double by_particles = reflected_light(&s->problem, particles, &of_particles),
+                 by_paths = reflected_light(&s->problem, paths, &of_paths),
                  off = by_particles - by_paths;
     of_particles = fmax(of_particles, tally_power_of_one(particles) * by_paths);
     return by_paths > 0 && off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);

@@ -49,6 +49,7 @@ struct problem {
     uint32_t bands;                 /* 1 or 3 */
     double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
     double *whitest;                /* [face]: rho of the band where it is largest */
+    int reflects;                   /* 0: no light is reflected, that is sure (lights_reach.h) */
     struct rays *rays;
     int closed;           /* with closure: 1 when no light leaves the scene (enclosure.c), else 0 */
     uint64_t closed_rays; /* the rays that say so */

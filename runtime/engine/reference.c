@@ -23,9 +23,9 @@
 #include <string.h>
 #include "engine/reference.h"
 #include "engine/reflected_light.h"
+#include "engine/solve_tracer.h"
 #include "engine/state_identity.h"
 #include "engine/state_stream.h"
-#include "engine/solve_tracer.h"
 #include "kernel/constants.h"
 
 /* Random numbers that nothing else takes: a reference must not share its noise with what it
@@ -278,7 +278,7 @@ int reference_irradiance(const struct reference *r, enum reference_method method
 static void doubt(const struct reference *r, struct reference_summary *s)
 {
     if (!(s->reflected > 0))
-        s->unseen = unseen_light(&r->solve.problem, &r->solve.hierarchy, &r->tally);
+        s->unseen = unseen_light(&r->solve.problem, &r->tally);
     for (int way = 0; way < REFERENCE_METHODS; way++)
         if (s->unseen > 0 || !is_traced(r, (enum reference_method)way))
             s->noise[way] = INFINITY;
@@ -329,7 +329,7 @@ int reference_summary(const struct reference *r, struct reference_summary *s)
         }
     }
     double variance;
-    (void)reflected_light(p, &r->solve.hierarchy, &r->tally, &variance);
+    (void)reflected_light(p, &r->tally, &variance);
     for (size_t i = 0; i < count; i++)
         variance += deviation[i] * deviation[i];
     s->deviation = sqrt(variance);

@@ -8,11 +8,10 @@
 
 /* W, all bands, on all ranks; *variance: of that, by how replicates differ; where none of the
  * particles was reflected, though some may be, as if one more were. */
-double reflected_light(const struct problem *p, const struct hierarchy *h,
-                       const struct tally *tally, double *variance);
+double reflected_light(const struct problem *p, const struct tally *tally, double *variance);
 
 /* Where the tally has seen nothing reflected: no more than that is (W, all bands; by particles in
  * 95 of 100 cases), 0: nothing is, that is sure. */
-double unseen_light(const struct problem *p, const struct hierarchy *h, const struct tally *tally);
+double unseen_light(const struct problem *p, const struct tally *tally);
 
 #endif

@@ -19,6 +19,7 @@
 #include "engine/bends.h"
 #include "engine/collocation.h"
 #include "engine/dense.h"
+#include "engine/lights_reach.h"
 #include "engine/solve.h"
 #include "engine/trace.h"
 #include "engine/transport.h"
@@ -267,6 +268,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     if (ranks_any(options->ranks, !p->rays))
         goto fail;
     oracle_inputs_guess(p, h);
+    p->reflects = lights_reach(p, h);
     if (options->closure != CLOSURE_NONE)
         p->closed = enclosure_decide(p->rays, h, brightest, options->threads, &p->closed_rays);
     free(brightest);

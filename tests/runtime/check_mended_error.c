@@ -160,7 +160,7 @@ START_TEST(test_power)
     double *truth = tiled_open(&scene, &s, 4, &chance), variance, times, alone;
     struct tracer t = tracer_over(&s, 1);
     traced(&y, &t, 1, 4096);
-    const double light = reflected_light(&s.problem, &s.hierarchy, &y, &variance);
+    const double light = reflected_light(&s.problem, &y, &variance);
     struct mending_goal goal = {.noise = 0.9, .power = 0.5 * sqrt(variance) / light};
     ck_assert_int_eq(mended_error_times(&s, &y, &goal, &times, &alone), 0);
     ck_assert_double_eq_tol(times, 4, 1e-9);
@@ -215,8 +215,7 @@ static void check_sum(double many, uint64_t seed)
     double *links = calloc(values, sizeof *links), *after = calloc(values, sizeof *after);
     struct tracer t = tracer_over(&s, 1);
     traced(&y, &t, seed, 16 * (int)scene.face_count);
-    const double counted = reflected_light(&s.problem, &s.hierarchy, &y, &variance),
-                 noise = sqrt(variance);
+    const double counted = reflected_light(&s.problem, &y, &variance), noise = sqrt(variance);
     tilt(&s, truth, 0, links);
     const double right = sum_of(&s, links);
     tilt(&s, truth, 1, links);

@@ -109,8 +109,8 @@ START_TEST(test_all_own)
     for (uint32_t e = 0; e < h->count; e++)
         ck_assert(tally_leaf(&whole, e, 0) == tally_leaf(&own, e, 0));
     double noise[2];
-    ck_assert(reflected_light(&x.s.problem, &x.s.hierarchy, &whole, &noise[0])
-              == reflected_light(&x.s.problem, &x.s.hierarchy, &own, &noise[1]));
+    ck_assert(reflected_light(&x.s.problem, &whole, &noise[0])
+              == reflected_light(&x.s.problem, &own, &noise[1]));
     struct face_error a, b;
     const double *H = x.s.state.irradiance;
     ck_assert_int_eq(face_error_open(&a, &x.s.problem, h, H, &whole), 0);

@@ -220,8 +220,7 @@ START_TEST(test_few_particles)
     struct looked l;
     double variance;
     look(&l, 1000);
-    const double light =
-        reflected_light(&l.solve.problem, &l.solve.hierarchy, &l.particles, &variance);
+    const double light = reflected_light(&l.solve.problem, &l.particles, &variance);
     printf("%.2g +- %.2g of 3.6 W by few particles\n", light, sqrt(variance));
     ck_assert_int_eq(paths_mend(&l, 0.2 * 0.6 * 6 / light), 1);
     looked_close(&l);

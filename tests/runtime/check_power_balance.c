@@ -52,9 +52,9 @@ START_TEST(test_white)
     lit_room(&scene, 0.9, 0.9, 0);
     open_tracer(&s, &t, &scene);
     count(&y, &t, 1, FEW);
-    before = reflected_light(&s.problem, &s.hierarchy, &y, &noise[0]);
+    before = reflected_light(&s.problem, &y, &noise[0]);
     power_balance(&y, &t);
-    after = reflected_light(&s.problem, &s.hierarchy, &y, &noise[1]);
+    after = reflected_light(&s.problem, &y, &noise[1]);
     printf("white: %.4g W, balanced %.6g, of %.6g\n", before, after, 9 * t.lights.power);
     ck_assert_double_gt(fabs(before / (9 * t.lights.power) - 1), 1e-4);
     ck_assert_double_gt(sqrt(noise[0]), 1e-3 * after);
@@ -89,7 +89,7 @@ START_TEST(test_mean)
         for (int balanced = 0; balanced < 2; balanced++) {
             if (balanced)
                 power_balance(&y, &t);
-            double found = reflected_light(&s.problem, &s.hierarchy, &y, &noise);
+            double found = reflected_light(&s.problem, &y, &noise);
             sum[balanced] += found / SETS;
             square[balanced] += found * found / SETS;
         }

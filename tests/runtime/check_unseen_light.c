@@ -123,6 +123,25 @@ START_TEST(test_away)
 }
 END_TEST
 
+/* So many lamps, all black, do not take their square to tell that nothing is reflected. */
+START_TEST(test_black)
+{
+    enum { SIDE = 500 };
+    const struct solve_options options = quick(2);
+    struct scene scene;
+    struct solve s;
+    const char *cause;
+    made_open_for(&scene, SIDE * SIDE);
+    made_material(&scene, 0, 1);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        made_quad(&scene, 0, i % SIDE, (double)(i / SIDE), 0, 1, 0, 0, 0, 1, 0);
+    ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
+    ck_assert_int_eq(s.problem.reflects, 0);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("unseen light");
@@ -131,6 +150,7 @@ int main(void)
     tcase_add_loop_test(tests, test_few, 0, 2);
     tcase_add_test(tests, test_window);
     tcase_add_test(tests, test_away);
+    tcase_add_test(tests, test_black);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
 }
