@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "util/array.h"
+#include "util/catch_signal.h"
 
 static const int ending[] = {SIGINT, SIGTERM, SIGHUP};
 
@@ -157,13 +158,6 @@ void temporary_watch(void)
     if (all.watching)
         pthread_detach(thread);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    for (size_t i = 0; i < sizeof ending / sizeof *ending && all.watching; i++) {
-        struct sigaction action;
-        if (sigaction(ending[i], NULL, &action) || action.sa_handler == SIG_IGN)
-            continue;
-        action = (struct sigaction){.sa_flags = SA_RESTART};
-        action.sa_handler = temporary_signal;
-        sigemptyset(&action.sa_mask);
-        sigaction(ending[i], &action, NULL);
-    }
+    for (size_t i = 0; i < sizeof ending / sizeof *ending && all.watching; i++)
+        catch_signal(ending[i], temporary_signal, SA_RESTART);
 }
