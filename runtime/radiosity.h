@@ -720,9 +720,10 @@ struct RadMeasure {
 
 struct RadMeasureOptions {
     /* how many to cast, about; 0: RAD_MEASURE_SHARE of what the solution has cast and
-     * RAD_MEASURE_MENDED of what mending has, and no fewer than RAD_MEASURE_LEAST,
-     * RAD_MEASURE_SURFACES where surfaces are asked for, and RAD_MEASURE_POLYGON for each polygon
-     */
+     * RAD_MEASURE_MENDED of what mending has, RAD_MEASURE_PATHS of it where paths have mended,
+     * whose noise falls faster than with the root of their number, and no fewer than
+     * RAD_MEASURE_LEAST, RAD_MEASURE_SURFACES where surfaces are asked for, and RAD_MEASURE_POLYGON
+     * for each polygon */
     uint64_t rays;
     /* which random numbers, 0 to 2^31: measurements of different ones are independent of each
      * other, and all of what a solution is mended with */
@@ -734,6 +735,7 @@ struct RadMeasureOptions {
 };
 #define RAD_MEASURE_SHARE 0.01
 #define RAD_MEASURE_MENDED 0.05
+#define RAD_MEASURE_PATHS 0.2
 #define RAD_MEASURE_LEAST (1u << 15)
 #define RAD_MEASURE_SURFACES 250000u
 #define RAD_MEASURE_POLYGON 16u

@@ -433,8 +433,9 @@
 /* standard errors. All light by paths and by particles is no farther apart: 1 in 500 of Student's t
  * with 15 degrees of freedom; chosen */
 #define REFINER_PATHS_AGREE 3.7
-/* times cheaper than particles, which tell places within faces as well, paths have to be; chosen */
-#define REFINER_PATHS_CHEAPER 4.0
+/* times cheaper than particles, which tell places within faces as well, paths have to be. Chosen; a
+ * look makes them two to four times dearer than they are in the end */
+#define REFINER_PATHS_CHEAPER 2.0
 /* of the rays of mending. So many may be spent on paths from dim polygons at the most: mending then
  * takes twice as many at worst */
 #define REFINER_DIM_RAYS 1.0

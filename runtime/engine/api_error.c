@@ -63,9 +63,10 @@ int radMeasureError(RadSolution solution, const struct RadMeasureOptions *given,
     if (o->stream > 1u << 31)
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadMeasureOptions.stream is %u; it takes 0 to 2^31", (unsigned)o->stream);
+    const double mended = solution->solve.by_paths ? RAD_MEASURE_PATHS : RAD_MEASURE_MENDED;
     uint64_t rays = o->rays ? o->rays
                             : share_of_rays(solution, RAD_MEASURE_SHARE,
-                                            RAD_MEASURE_MENDED * (double)solution->mending_rays,
+                                            mended * (double)solution->mending_rays,
                                             least_rays(solution, o->surfaces));
     const char *cause;
     measured_error_free(&solution->measured);

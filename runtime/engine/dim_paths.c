@@ -79,8 +79,11 @@ static void trace_block(const struct dim_faces *d, struct block *b)
     const struct tracer *t = d->tracer;
     const struct dim_polygon *p = &d->polygon[b->polygon];
     const double *until = &d->until[p->from];
+    const uint64_t stream = STREAM + d->face[p->from];
+    uint32_t shift[SOBOL_COORDINATES];
+    sobol_sequence_shifts(stream, shift);
     for (uint64_t i = b->first; i < b->first + DIM_BLOCK; i++) {
-        struct dice dice = dice_of(STREAM + d->face[p->from], i);
+        struct dice dice = dice_of_point(t, stream, i, shift, i);
         double w = dice_throw(&dice), u = dice_throw(&dice), v = dice_throw(&dice);
         double x[3], h[3] = {0, 0, 0}, all = 0;
         uint32_t face = d->face[p->from + running_sums_find(until, p->to - p->from, w * p->area)];

@@ -3,9 +3,11 @@
  * Particles go where emitters shine. Of a sky over a house next to none finds the window, and of
  * those that leave a small lamp few meet a terrain's far end; paths start on what is asked for and
  * look for the light. In a room, where light is reflected many times, it is the other way round.
- * Noise falls with the root of the number, so noise^2 times rays is what each costs, whatever the
- * number: both are measured, particles by the first look that mending takes anyway, paths by a
- * block for each face. Paths know nothing of places within a face, so they have to be much cheaper.
+ * Noise^2 times rays is what each costs: both are measured, particles by the first look that
+ * mending takes anyway, paths by a block for each face. Paths know nothing of places within a face,
+ * so they have to be much cheaper. They go by a sequence, whose noise falls faster than with the
+ * root of the number: where the first block says that they are cheaper, but not by how much, and
+ * more are a small part of what is to come, there is a second look.
  *
  * Paths that hardly ever find the light, as of a lamp behind two bends, may have found none and
  * seem to have no noise. So what they say of all light together is held against the particles:
@@ -19,7 +21,9 @@
 #include "engine/reflected_light.h"
 #include "kernel/constants.h"
 
-enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
+/* of a path, about, before any is traced; and times the paths there are, so many at the most before
+ * it is asked again how many are wanted */
+enum { RAYS_OF_PATH = 4, GROWTH = 4 };
 
 /* Do both see the same light, and any? */
 static int agree(const struct solve *s, const struct tally *particles, const struct tally *paths)
@@ -55,7 +59,7 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
         return 0;
     if (path_tally_open(y, t, path_mending_stream(0)) < 0)
         return -1;
-    for (int first = 1;; first = 0) {
+    for (int chosen = 0, again = 0;;) {
         const uint64_t before = y->tally.rays;
         if (path_tally_trace(y, t, s->state.irradiance, (uint64_t)paths, watch) < 0
             || mended_error_times(s, &y->tally, goal, &times, &alone) < 0)
@@ -63,13 +67,18 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
         const double rays = (double)y->tally.rays;
         if (!agree(s, tally, &y->tally))
             return 0;
-        if (first && !(PATHS_CHEAPER * alone * rays < cost))
+        const int cheap = PATHS_CHEAPER * alone * rays < cost;
+        if (!chosen && !cheap
+            && (again || !(alone * rays < cost)
+                || !(fmin(cost, most) > PATHS_LOOK * GROWTH * rays)))
             return 0;
+        chosen |= cheap;
+        again = 1;
         if (!(times > 1) || rays >= 0.99 * most || y->tally.rays == before)
             return 1;
-        /* they double twice at the most before that is asked again, and each face has a block more
-         * where there is room for that: less may be none */
+        /* each face has a block more where there is room for that: less may be none */
         const double traced = (double)y->tally.particles * REPLICATES;
-        paths = fmin(fmax(traced * fmin(1.02 * times, 4), traced + look), traced * most / rays);
+        paths =
+            fmin(fmax(traced * fmin(1.02 * times, GROWTH), traced + look), traced * most / rays);
     }
 }

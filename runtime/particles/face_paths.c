@@ -58,10 +58,15 @@ struct block {
     double sum[PATH_HALVES][3], square[PATH_HALVES][3], replicate[REPLICATES][3];
 };
 
-static void trace(struct block *b, const struct tracer *t, uint64_t stream)
+static void trace(struct block *b, const struct tracer *t, uint64_t stream, int replicates)
 {
+    uint32_t shift[REPLICATES][SOBOL_COORDINATES];
+    for (uint64_t r = 0; r < REPLICATES && replicates; r++)
+        sobol_sequence_shifts((stream + b->face) * REPLICATES + r, shift[r]);
     for (uint64_t i = b->first; i < b->first + PATH_BLOCK; i++) {
-        struct dice dice = dice_of(stream + b->face, i);
+        struct dice dice = replicates ? dice_of_point(t, stream + b->face, i, shift[i % REPLICATES],
+                                                      i / REPLICATES)
+                                      : dice_of(stream + b->face, i);
         double u = dice_throw(&dice), v = dice_throw(&dice), p[3], h[3] = {0, 0, 0};
         tracer_point(t, b->face, u, v, p);
         path_irradiance(t, b->face, p, &dice, h, &b->rays);
@@ -90,20 +95,21 @@ struct blocks {
     const struct tracer *t;
     struct block *blocks;
     uint64_t stream;
+    int replicates;
 };
 
 static void trace_blocks(const void *blocks, size_t from, size_t to)
 {
     const struct blocks *b = blocks;
     for (size_t i = from; i < to; i++)
-        trace(&b->blocks[i], b->t, b->stream);
+        trace(&b->blocks[i], b->t, b->stream, b->replicates);
 }
 
 /* Trace the blocks, then add them in their order. Returns 0, or -1 when stopped. */
 static int flush(struct face_paths *p, const struct tracer *t, struct block *blocks, int count,
                  const struct watch *watch, double share)
 {
-    const struct blocks all = {t, blocks, p->stream};
+    const struct blocks all = {t, blocks, p->stream, p->replicate[0] != NULL};
     ranks_loop_run(t->ranks, RANKS_PARTICLES, t->threads, (size_t)count, 16, trace_blocks, &all,
                    blocks, sizeof *blocks);
     for (int i = 0; i < count; i++)

@@ -3,7 +3,9 @@
  * How many paths a face gets of so many in all is fixed: by its share, in whole blocks, the first
  * of them by being there. So what has been traced depends on the sum of what was asked for, not on
  * the pieces it was asked in. Even and odd paths are summed up apart: two halves that know nothing
- * of each other.
+ * of each other. Where sums by replicates are asked for, which tell the noise, those of one go by
+ * the points of a sequence, each face's and each replicate's shifted by chance: of a sky that
+ * a wall sees a part of, say, that leaves a fraction of the noise. Squares would be blind to it.
  *
  * Invariant: a block is summed up by one thread and blocks in their order, so neither threads nor
  * pieces show.

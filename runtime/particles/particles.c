@@ -8,7 +8,6 @@
 #include "particles/landing_mail.h"
 #include "particles/particles.h"
 #include "particles/running_sums.h"
-#include "particles/sobol_sequence.h"
 
 enum {
     BATCH = 1024,
@@ -51,7 +50,6 @@ struct landing {
 
 /* A run of particles of one replicate, and its sums that are no place's. */
 struct batch {
-    const struct sobol_sequence *sobol;
     uint32_t shift[SOBOL_COORDINATES];
     int replicate, landed;
     uint64_t rays;
@@ -132,20 +130,10 @@ static uint32_t land(struct tally *tally, const struct tracer *t, uint32_t face,
     return tally->window || batch->landed == LANDINGS ? count_landings(tally, t, batch) : 0;
 }
 
-/* What decides next about a reflection, in [0, 1): a coordinate of the sequence as far as these go,
- * then the dice. used: how many decisions there have been. */
-static double decide(const struct batch *batch, uint64_t index, struct dice *dice, int *used)
-{
-    const int d = SOBOL_DIMENSIONS + (*used)++;
-    if (d >= SOBOL_COORDINATES)
-        return dice_throw(dice);
-    return sobol_sequence_at(batch->sobol, (uint32_t)index, d, batch->shift[d]);
-}
-
 /* A particle, or several alike, about to leave a surface. */
 struct flight {
     uint32_t face;
-    int used, copies; /* decisions of the sequence that are spent; how many are to leave */
+    int copies; /* how many are to leave */
     double p[3], share[3];
 };
 
@@ -206,11 +194,13 @@ static void lose(struct tally *tally, int64_t met, const double *share, struct b
 
 static void trace(struct tally *tally, const struct tracer *t, uint64_t index, struct batch *batch)
 {
-    struct dice dice = dice_of(tally->stream * REPLICATES + (uint64_t)batch->replicate, index);
+    struct dice dice = dice_of_point(t, tally->stream * REPLICATES + (uint64_t)batch->replicate,
+                                     index, batch->shift, index);
     struct flight waiting[WAITING];
     int places = 0;
-    double u[SOBOL_DIMENSIONS], at[3];
-    sobol_sequence_point(batch->sobol, (uint32_t)index, batch->shift, u);
+    double u[5], at[3];
+    for (int d = 0; d < 5; d++)
+        u[d] = dice_throw(&dice);
     struct flight f = emit(tally, t, u);
     double s = u[3], v = u[4];
     for (;;) {
@@ -220,24 +210,23 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
         if (met >= 0) {
             f.face = (uint32_t)met;
             uint32_t leaf = land(tally, t, f.face, at, f.share, batch);
-            reflect(tally, t, leaf, decide(batch, index, &dice, &f.used),
-                    places < WAITING ? COPIES : 1, &f);
+            reflect(tally, t, leaf, dice_throw(&dice), places < WAITING ? COPIES : 1, &f);
         } else {
             lose(tally, met, f.share, batch);
         }
         if (f.copies > 1) {
             f.copies--;
-            waiting[places] = f;
-            waiting[places++].used = SOBOL_COORDINATES; /* the sequence is the first copy's */
+            waiting[places++] = f;
         } else if (f.copies == 0) {
             if (places == 0)
                 return;
+            dice.used = SOBOL_COORDINATES; /* the sequence was the first copy's */
             f = waiting[places - 1];
             if (--waiting[places - 1].copies == 0)
                 places--;
         }
-        s = decide(batch, index, &dice, &f.used);
-        v = decide(batch, index, &dice, &f.used);
+        s = dice_throw(&dice);
+        v = dice_throw(&dice);
     }
 }
 
@@ -252,7 +241,6 @@ struct sums {
 struct batches {
     struct tally *tally;
     const struct tracer *t;
-    const struct sobol_sequence *sobol;
     uint64_t from, to, rank, ranks, done;
     struct watched_loop *loop;
     struct sums *sums;
@@ -264,16 +252,14 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
     const struct batches *all = batches;
     for (uint64_t i = begin; i < end; i++) {
         const uint64_t b = (all->done + i) * all->ranks + all->rank;
-        struct batch batch = {.sobol = all->sobol,
-                              .replicate = (int)(b % REPLICATES),
+        struct batch batch = {.replicate = (int)(b % REPLICATES),
                               .mail = all->mail ? &all->mail[i] : NULL};
         uint64_t low = all->from + b / REPLICATES * BATCH,
                  high = low + BATCH < all->to ? low + BATCH : all->to,
                  set = all->tally->stream * REPLICATES + (uint64_t)batch.replicate;
         if (watched_loop_stopped(all->loop))
             continue;
-        for (int d = 0; d < SOBOL_COORDINATES; d++)
-            batch.shift[d] = (uint32_t)(hash64(set * SOBOL_COORDINATES + (uint64_t)d + 1) >> 32);
+        sobol_sequence_shifts(set, batch.shift);
         for (uint64_t k = low; k < high; k++)
             trace(all->tally, all->t, k, &batch);
         count_landings(all->tally, all->t, &batch);
@@ -346,13 +332,11 @@ int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t parti
     tally->particles = to;
     if (!(tally->power > 0))
         return 0;
-    struct sobol_sequence sobol;
-    sobol_sequence_open(&sobol);
     const uint64_t rank = (uint64_t)ranks_number(t->ranks), ranks = (uint64_t)ranks_count(t->ranks),
                    mine = (count + ranks - 1 - rank) / ranks;
     struct watched_loop loop = {.watch = watch, .all = mine};
     struct sums sums = {0};
-    struct batches all = {tally, t, &sobol, from, to, rank, ranks, 0, &loop, &sums, NULL};
+    struct batches all = {tally, t, from, to, rank, ranks, 0, &loop, &sums, NULL};
     int failed = 0;
     part_counts(tally, t->ranks);
     if (tally->quarters)

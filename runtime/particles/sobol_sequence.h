@@ -11,6 +11,7 @@
 #define SOBOL_SEQUENCE_H
 
 #include <stdint.h>
+#include "kernel/hash.h"
 
 /* Those that a point has, and those that can be had. */
 enum { SOBOL_DIMENSIONS = 5, SOBOL_COORDINATES = 20 };
@@ -69,6 +70,13 @@ static inline void sobol_sequence_open(struct sobol_sequence *sobol)
                     digits[(1u << b) + i] = digits[i] ^ v[run * SOBOL_RUN + b];
         }
     }
+}
+
+/* Shifts of a set of points, which no other set has. */
+static inline void sobol_sequence_shifts(uint64_t set, uint32_t shift[SOBOL_COORDINATES])
+{
+    for (int d = 0; d < SOBOL_COORDINATES; d++)
+        shift[d] = (uint32_t)(hash64(set * SOBOL_COORDINATES + (uint64_t)d + 1) >> 32);
 }
 
 /* Coordinate d of a point, by the shift of its digits. */

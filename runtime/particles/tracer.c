@@ -13,6 +13,7 @@ int tracer_open(struct tracer *t)
     uint32_t count = 0, faces = t->hierarchy->face_count;
     *l = (struct lights){0};
     t->light_tree = (struct light_tree){0};
+    sobol_sequence_open(&t->sobol);
     for (uint32_t pass = 0; pass < 2; pass++) {
         for (uint32_t i = 0; i < faces; i++) {
             double power = 0;

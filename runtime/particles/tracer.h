@@ -12,6 +12,7 @@
 #include "hierarchy/quarters.h"
 #include "kernel/hash.h"
 #include "particles/light_tree.h"
+#include "particles/sobol_sequence.h"
 #include "util/ranks.h"
 #include "visibility/rays.h"
 
@@ -37,28 +38,49 @@ struct tracer {
     const size_t *stretch;
     struct lights lights;         /* owned, as the next */
     struct light_tree light_tree; /* the same emitters, for paths */
+    struct sobol_sequence sobol;
 };
 
-/* lights and light_tree are made of the rest. Returns 0, or -1 when out of memory. */
+/* lights, light_tree and sobol are made of the rest. Returns 0, or -1 when out of memory. */
 int tracer_open(struct tracer *t);
 void tracer_close(struct tracer *t);
 
 /* The emitter that the share u in [0, 1) of all power falls to; there must be one. */
 uint32_t lights_choose(const struct lights *l, double u);
 
-/* One path's random numbers. */
+/* One path's random numbers: coordinates of a point of a sequence, as far as these go; then what
+ * chance gives. */
 struct dice {
     uint64_t state;
+    const struct sobol_sequence *sobol; /* NULL: chance alone */
+    const uint32_t *shift;              /* [SOBOL_COORDINATES] */
+    uint32_t index;                     /* of the point */
+    int used;                           /* coordinates of it */
 };
 
 static inline struct dice dice_of(uint64_t stream, uint64_t path)
 {
-    return (struct dice){hash64(hash64(stream * HASH_STEP + 1) + path * HASH_STEP)};
+    return (struct dice){.state = hash64(hash64(stream * HASH_STEP + 1) + path * HASH_STEP)};
+}
+
+/* The same, with a point of a sequence. */
+static inline struct dice dice_of_point(const struct tracer *t, uint64_t stream, uint64_t path,
+                                        const uint32_t *shift, uint64_t index)
+{
+    struct dice d = dice_of(stream, path);
+    d.sobol = &t->sobol;
+    d.shift = shift;
+    d.index = (uint32_t)index;
+    return d;
 }
 
 /* In [0, 1). */
 static inline double dice_throw(struct dice *d)
 {
+    if (d->sobol && d->used < SOBOL_COORDINATES) {
+        const int c = d->used++;
+        return sobol_sequence_at(d->sobol, d->index, c, d->shift[c]);
+    }
     return (double)(hash64(d->state += HASH_STEP) >> 11) * 0x1p-53;
 }
 

@@ -141,6 +141,39 @@ START_TEST(test_most)
 }
 END_TEST
 
+/* Blocks of 1 m on a ground of 20 m under a sky not much larger: by a block of paths for each face
+ * they take .6 of the rays of particles, by four a fifth, and a ninth in the end. */
+START_TEST(test_second_look)
+{
+    enum { BLOCKS = 10 };
+    const double side = 32, low = BLOCKS - side / 2;
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    made_open(&scene);
+    made_material(&scene, 0.5, 0);
+    made_material(&scene, 0, 100);
+    made_quad(&scene, 0, 0, 0, 0, 2 * BLOCKS, 0, 0, 0, 2 * BLOCKS, 0);
+    for (int i = 0; i < BLOCKS * BLOCKS; i++) {
+        const double x = i % BLOCKS * 2 + 0.5, y = (double)(i / BLOCKS) * 2 + 0.5;
+        made_quad(&scene, 0, x, y, 1, 1, 0, 0, 0, 1, 0);
+        made_quad(&scene, 0, x, y, 0, 1, 0, 0, 0, 0, 1);
+        made_quad(&scene, 0, x + 1, y, 0, 0, 1, 0, 0, 0, 1);
+        made_quad(&scene, 0, x + 1, y + 1, 0, -1, 0, 0, 0, 0, 1);
+        made_quad(&scene, 0, x, y + 1, 0, 0, -1, 0, 0, 0, 1);
+    }
+    made_quad(&scene, 1, low, low, 3 + side / 4, 0, side, 0, side, 0, 0);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, coarse, quick(2));
+    ck_assert_int_eq(measure_and_mend(&s, &goal, &alone, &cause), 0);
+    ck_assert_int_eq(s.by_paths, 1);
+    printf("blocks under a sky: %.2g rays\n", (double)alone.rays);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* A lamp in a room of white walls: light that has been reflected many times. */
 START_TEST(test_room)
 {
@@ -330,6 +363,7 @@ int main(void)
     tcase_add_loop_test(c, test_sky, 0, 2);
     tcase_add_loop_test(c, test_most, 0, 8);
     tcase_add_test(c, test_left);
+    tcase_add_test(c, test_second_look);
     tcase_add_test(c, test_room);
     tcase_add_test(c, test_other_light);
     tcase_add_test(c, test_few_particles);

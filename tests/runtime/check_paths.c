@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "make_solve.h"
+#include "particles/face_paths.h"
 #include "particles/particles.h"
 #include "particles/paths.h"
 #include "scene/read_scene.h"
@@ -101,10 +102,7 @@ END_TEST
 START_TEST(test_squares)
 {
     for (double c = 0.03; c < 4; c *= 3) {
-        double x2 = 1 / (c * c), f = 2 / (M_PI * x2)
-                                     * (0.5 * log((1 + x2) * (1 + x2) / (1 + 2 * x2))
-                                        + 2 * sqrt((1 + x2) * x2) * atan(sqrt(x2 / (1 + x2)))
-                                        - 2 * sqrt(x2) * atan(sqrt(x2)));
+        const double f = closed_parallel(1, 1, c);
         struct traced x;
         made_open(&x.scene);
         made_material(&x.scene, 0, 0);
@@ -292,6 +290,56 @@ START_TEST(test_particles)
 }
 END_TEST
 
+/* Paths of a face that sees a lamp, in the second case each half of it half the lamp, as a wall
+ * stands between, by points of a sequence: replicates tell how far their mean is off, and it is
+ * nearer than that of as many by chance. */
+START_TEST(test_sequence)
+{
+    enum { STREAMS = 64, PATHS = 2048 };
+    for (int screen = 0; screen < 2; screen++) {
+        struct traced x;
+        made_open(&x.scene);
+        made_material(&x.scene, 0.5, 0);
+        made_material(&x.scene, 0, 3);
+        made_material(&x.scene, 0, 0);
+        made_quad(&x.scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+        made_quad(&x.scene, 1, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+        if (screen)
+            made_quad(&x.scene, 2, 0.5, 0, 1e-4, 0, 1, 0, 0, 0, 0.9999);
+        traced_open(&x, 1);
+        const double exact = 3 * closed_parallel(screen ? 0.5 : 1, 1, 1);
+        double off = 0, told = 0, by_chance = 0;
+        for (uint64_t stream = 0; stream < STREAMS; stream++) {
+            struct face_paths p;
+            double variance = 0, mean = 0, square = 0;
+            ck_assert_int_eq(face_paths_open(&p, &x.tracer, stream << 40, 1), 0);
+            ck_assert_int_eq(face_paths_trace(&p, &x.tracer, PATHS, NULL), 0);
+            const double n = (double)face_paths_count(&p, 0, PATHS) / REPLICATES;
+            for (int r = 0; r < REPLICATES; r++) {
+                const double h = p.replicate[r][0] / n;
+                mean += h / REPLICATES;
+                square += h * h;
+            }
+            variance = (square - REPLICATES * mean * mean) / (REPLICATES * (REPLICATES - 1));
+            for (int half = 0; half < PATH_HALVES; half++) {
+                double of_half, spread;
+                face_paths_mean(&p, half, 0, 0, &of_half, &spread);
+                by_chance += spread / (PATH_HALVES * PATH_HALVES);
+            }
+            off += (mean - exact) * (mean - exact) / STREAMS;
+            told += variance / STREAMS;
+            face_paths_close(&p);
+        }
+        by_chance /= STREAMS;
+        /* a sum of STREAMS squares: 1.5 times the mean is 2.8 standard deviations */
+        ck_assert_double_lt(off, 1.5 * told);
+        ck_assert_double_lt(told, 1.5 * off);
+        ck_assert_double_lt(told, by_chance / 2);
+        traced_close(&x);
+    }
+}
+END_TEST
+
 /* Two ways to the same points: one by one, and many at once in the order of Gray codes. */
 START_TEST(test_sobol)
 {
@@ -378,6 +426,7 @@ int main(void)
     tcase_add_test(paths, test_reflections);
     tcase_add_test(paths, test_corner);
     tcase_add_test(paths, test_squares);
+    tcase_add_test(paths, test_sequence);
     tcase_add_test(paths, test_plates);
     tcase_add_test(paths, test_furnace);
     tcase_add_test(paths, test_light_tree);
