@@ -34,7 +34,7 @@ what sees nothing is looked at | runtime/engine/dim_paths.h | s/p->sighted == 0/
 middles of parts lie on edges | runtime/engine/sight_outlines.c | s/1 + hash_unit((uint64_t)i)/1 + 0 * hash_unit((uint64_t)i)/ | runtime/check_outlines
 shades seen from the edge tell | runtime/engine/sight_missed.c | s/> EDGE_ON \* radius/>= 0 * radius/ | runtime/check_sheets
 the ray in a joint speaks for all | runtime/engine/sight_between.c | s/line < 3; line/line < 1; line/ | runtime/check_sheets
-paths are looked at once | runtime/engine/path_mending.c | s/(again || !(alone/(1 || !(alone/ | runtime/check_path_mending
+paths are looked at once | runtime/engine/path_mending.c | s/(again /(1 / | runtime/check_path_mending
 replicates of paths share their points | runtime/particles/face_paths.c | s/REPLICATES + r, shift/REPLICATES, shift/ | runtime/check_paths
 paths are held against particles that saw nothing | runtime/engine/path_mending.c | s/fmax(of_particles, tally_power_of_one(particles) . by_paths)/fmax(of_particles, 0 * by_paths)/ | runtime/check_path_mending
 nothing seen is nothing there | runtime/engine/reflected_light.c | s/        \*variance = tally_power_of_one/        *variance = 0 * tally_power_of_one/ | runtime/check_unseen_light
