@@ -74,10 +74,11 @@ static int watch_round(void *context, const struct refinement *refinement)
 static int refine(struct exchange *x, const struct refiner *refiner, struct watcher *watcher,
                   const struct exchange_aim *how)
 {
-    if (refinement_open(&x->refinement, &x->tree.h, &x->tree.host, refiner,
-                        watcher->options->threads)
-        < 0)
+    if (ranks_any(x->ranks, refinement_open(&x->refinement, &x->tree.h, &x->tree.host, refiner,
+                                            watcher->options->threads)
+                                < 0))
         return -1;
+    x->refinement.limits = limits_complete((struct limits){0}, x->ranks);
     x->refinement.watch = watch_round;
     x->refinement.watch_context = watcher;
     x->refinement.deal = ranks_count(x->ranks) > 1 ? x->ranks : NULL;

@@ -11,7 +11,8 @@
  *             does not end makes parts, and few ends. So the limit is on how far the parts are
  *             ahead of twice the ends. [D: derived here]
  *             Given as a number it is a limit on all parts.
- *   links     that they, and elements, fit into half of the memory that is there
+ *   links     that they, and elements, fit into half of the memory that is there; of several ranks
+ *             each has its part of its machine, and all have the limits of the one with least
  *   pairs, rounds
  *             far beyond any run; they end what goes on at one depth in little memory
  *
@@ -20,6 +21,7 @@
  * SPDX-License-Identifier: MIT */
 #include "engine/limits.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +34,20 @@
 #include "oracle/follow.h"
 #include "util/ranks.h"
 
-/* Bytes that are there now: of the machine, or what a limit on the address space leaves. */
+/* The first line of a file as a number; or `otherwise`. */
+static double number_in(const char *path, double otherwise)
+{
+    double number = otherwise;
+    FILE *file = fopen(path, "r");
+    if (file && fscanf(file, "%lf", &number) != 1)
+        number = otherwise;
+    if (file)
+        (void)fclose(file);
+    return number;
+}
+
+/* Bytes that are there now: of the machine, or what a limit on the container or on the address
+ * space leaves. */
 static double memory_there(void)
 {
     long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
@@ -45,16 +60,21 @@ static double memory_there(void)
             there = 1024 * kilobytes;
     if (info)
         (void)fclose(info);
+    const double container = number_in("/sys/fs/cgroup/memory.max", INFINITY)
+                             - number_in("/sys/fs/cgroup/memory.current", 0);
+    there = fmax(fmin(there, container), 0);
     if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY
         && (double)space.rlim_cur < there)
         there = (double)space.rlim_cur;
     return there;
 }
 
-struct limits limits_complete(struct limits wanted)
+struct limits limits_complete(struct limits wanted, struct ranks *ranks)
 {
     struct limits l = wanted;
-    double there = memory_there();
+    double there = -memory_there() / ranks_beside(ranks);
+    ranks_most(ranks, RANKS_PAIRS, &there, 1);
+    there = -there; /* the least */
     /* a link stands twice while links are sorted */
     double links = LIMIT_MEMORY * there / (2 * sizeof(struct link));
     double elements = LIMIT_MEMORY * there / sizeof(struct element);
@@ -68,7 +88,8 @@ struct limits limits_complete(struct limits wanted)
     return l;
 }
 
-static const char *const PAIRS = "pairs";
+enum { DEPTH, ELEMENTS, LINKS, PAIRS, ROUNDS, LIMITS };
+static const char *const NAMES[LIMITS] = {"depth", "elements", "links", "pairs", "rounds"};
 enum { LEAST = 1024 }; /* pairs between two questions to other ranks */
 
 static uint64_t parts_of(const struct refinement *r)
@@ -89,30 +110,35 @@ static uint64_t most_parts(const struct refinement *r)
 const char *limits_met(const struct refinement *r)
 {
     const struct limits *l = &r->limits;
-    return r->deepest > l->depth         ? "depth"
-           : parts_of(r) > most_parts(r) ? "elements"
-           : r->link_count > l->links    ? "links"
-           : r->pairs > l->pairs         ? PAIRS
-           : r->rounds > l->rounds       ? "rounds"
+    return r->deepest > l->depth         ? NAMES[DEPTH]
+           : parts_of(r) > most_parts(r) ? NAMES[ELEMENTS]
+           : r->link_count > l->links    ? NAMES[LINKS]
+           : r->pairs > l->pairs         ? NAMES[PAIRS]
+           : r->rounds > l->rounds       ? NAMES[ROUNDS]
                                          : NULL;
 }
 
 /* All ranks tell what they have come to. Returns how many of them go on refining. */
 static uint64_t add_up(struct refinement *r, struct ranks *ranks, int goes_on, int failed)
 {
-    const int met = failed && r->met == PAIRS;
-    uint64_t all[4] = {r->pairs, (uint64_t)met, (uint64_t)(failed && !met), (uint64_t)goes_on};
-    ranks_add_counts(ranks, RANKS_PAIRS, all, 4);
-    const int together = !all[2] && (all[1] || all[0] > r->limits.pairs);
-    if (together)
-        r->met = PAIRS;
-    else if (met)
-        r->met = NULL;
-    r->ended = together || all[2];
-    const uint64_t left = r->ended ? 0 : r->limits.pairs - all[0],
-                   each = all[3] ? left / all[3] : left;
+    struct {
+        uint64_t pairs, goes_on, failed, met[LIMITS]; /* ranks that failed otherwise, by limits */
+    } all = {.pairs = r->pairs, .goes_on = (uint64_t)goes_on, .failed = failed && !r->met};
+    for (int i = 0; i < LIMITS; i++)
+        all.met[i] = failed && r->met == NAMES[i];
+    ranks_add_counts(ranks, RANKS_PAIRS, &all.pairs, sizeof all / sizeof all.pairs);
+    all.met[PAIRS] += all.pairs > r->limits.pairs;
+    r->ended = all.failed > 0;
+    r->met = NULL;
+    for (int i = 0; i < LIMITS && !r->ended; i++)
+        if (all.met[i]) {
+            r->met = NAMES[i];
+            r->ended = 1;
+        }
+    const uint64_t left = r->ended ? 0 : r->limits.pairs - all.pairs,
+                   each = all.goes_on ? left / all.goes_on : left;
     r->allowed = r->pairs + (each > LEAST ? each : LEAST);
-    return all[3];
+    return all.goes_on;
 }
 
 int limits_allow(struct refinement *r, int pairs)

@@ -18,8 +18,9 @@ struct limits {
     uint64_t ahead;                /* filled in; 0: `elements` was given */
 };
 
-/* The defaults in place of zeros, by the memory that is there now. */
-struct limits limits_complete(struct limits wanted);
+/* The defaults in place of zeros, by the memory that is there now: the same on all ranks, each of
+ * which gets its part of what its machine has. NULL: one process. */
+struct limits limits_complete(struct limits wanted, struct ranks *ranks);
 
 /* Which limit does refinement meet before it carries out another decision? NULL: none; else its
  * name, and r->limits says what it is. */

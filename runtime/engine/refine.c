@@ -73,7 +73,7 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
     r->refiner = refiner;
     r->threads = threads;
     r->built = hierarchy->count;
-    r->limits = limits_complete((struct limits){0});
+    r->limits = limits_complete((struct limits){0}, NULL);
     r->round = malloc(ROUND * sizeof *r->round);
     r->outcomes = malloc(ROUND * sizeof *r->outcomes);
     r->found = malloc(ROUND * sizeof *r->found); /* pages that no oracle fills cost nothing */

@@ -420,7 +420,7 @@ int solve_begin(struct solve *s, const struct refiner *refiner, const char **cau
                         p->options.threads)
         < 0)
         return fail(s, refining, cause);
-    s->refinement.limits = limits_complete(p->options.limits);
+    s->refinement.limits = limits_complete(p->options.limits, p->options.ranks);
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
     s->refinement.trace = s->trace;

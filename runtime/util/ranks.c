@@ -16,7 +16,7 @@ typedef int MPI_Comm;
 
 struct ranks {
     MPI_Comm all;
-    int count, number;
+    int count, number, beside;
     uint64_t sent[RANKS_KINDS];
     int *counts, *places; /* [2 * count]: to each and from each */
 };
@@ -39,6 +39,10 @@ static const char *join(struct ranks *r, const void *communicator)
     MPI_Comm_dup(*(const MPI_Comm *)communicator, &r->all);
     MPI_Comm_size(r->all, &r->count);
     MPI_Comm_rank(r->all, &r->number);
+    MPI_Comm here;
+    MPI_Comm_split_type(r->all, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+    MPI_Comm_size(here, &r->beside);
+    MPI_Comm_free(&here);
     return NULL;
 }
 
@@ -215,6 +219,11 @@ int ranks_count(const struct ranks *r)
 int ranks_number(const struct ranks *r)
 {
     return r ? r->number : 0;
+}
+
+int ranks_beside(const struct ranks *r)
+{
+    return r ? r->beside : 1;
 }
 
 const void *ranks_communicator(const struct ranks *r)

@@ -37,6 +37,7 @@ void ranks_close(struct ranks *r);
 
 int ranks_count(const struct ranks *r);
 int ranks_number(const struct ranks *r); /* of this one, from 0 */
+int ranks_beside(const struct ranks *r); /* on this one's machine, it among them */
 
 /* The address of its MPI_Comm, for others that send over it; NULL: one process. What they send they
  * tell of. */

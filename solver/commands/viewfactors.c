@@ -125,15 +125,16 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
                          const struct factor_parts *by, RadExchange exchange,
                          const struct columns *columns)
 {
+    struct RadExchangeReport r;
+    struct RadRank ranks[MACHINES_MOST];
+    radGetExchangeReport(exchange, &r);
+    /* asks all ranks: before one that writes may fail */
+    const int rank_count = radGetExchangeRanks(exchange, ranks, MACHINES_MOST);
     double start = seconds();
     uint32_t rows;
     if (write_matrix(o, scene, by, exchange, columns, &rows) < 0)
         return -1;
     double write_seconds = seconds() - start;
-    struct RadExchangeReport r;
-    radGetExchangeReport(exchange, &r);
-    struct RadRank ranks[MACHINES_MOST];
-    const int rank_count = radGetExchangeRanks(exchange, ranks, MACHINES_MOST);
     if (machines_number() > 0)
         return 0;
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)) {
