@@ -61,6 +61,20 @@ static int add_foot(const struct covering *by, uint32_t on, uint32_t solid, doub
     return 0;
 }
 
+/* Is a face the other side of one of a side of the body? It is no more behind that than the side
+ * itself is. */
+static int is_other_side(const struct hierarchy *h, uint32_t index, uint32_t side)
+{
+    const uint32_t f = h->elements[index].face, other = h->faces[f].back ? f - 1
+                                                        : face_is_pair(h->faces, h->face_count, f)
+                                                            ? f + 1
+                                                            : f;
+    if (other == f || side == NO_FACE)
+        return 0;
+    const struct face_range all = h->range[side], one = h->range[h->face_element[other]];
+    return one.from >= all.from && one.to <= all.to;
+}
+
 /* What faces below an element, which is part of `solid`, cover of a lid: those that look the same
  * way as it, and the others (m2). Faces that look one way do not lie on each other (overlaps.h).
  * Returns 0, or -1 when out of memory. */
@@ -90,7 +104,9 @@ static int add_cover(const struct hierarchy *h, uint32_t index, uint32_t solid,
         sum += lid_area(&over, (const double(*)[3])part, 3, lid->normal);
     }
     cover[same] += sum;
-    return by->standing && !same && sum > 0 ? add_foot(by, index, solid, sum) : 0;
+    return by->standing && !same && sum > 0 && !is_other_side(h, index, by->face)
+               ? add_foot(by, index, solid, sum)
+               : 0;
 }
 
 int body_feet_shut(const struct shell *s)

@@ -36,7 +36,7 @@ static void matrix(const char *obj, const char *more, int n, double *f)
 {
     char command[1024], path[256];
     const char *program = getenv("RADIOSITY");
-    write_file("scene.mtl", "newmtl grey\nKd .5 .5 .5\n");
+    write_file("scene.mtl", "newmtl grey\nKd .5 .5 .5\nnewmtl grey_2s\nKd .5 .5 .5\n");
     write_file("scene.obj", obj);
     snprintf(command, sizeof command, "%s viewfactors %s/scene.obj -q -o %s/out.csv %s",
              program ? program : "build/bin/radiosity", folder, folder, more);
@@ -76,6 +76,35 @@ START_TEST(test_obstructed)
            "", 3, f);
     ck_assert_double_eq_tol(f[1] / 0.1498686718, 1, 1e-3);
     ck_assert_double_eq_tol(f[3] / 0.1498686718, 1, 1e-3);
+}
+END_TEST
+
+#define BOX \
+    "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n" \
+    "usemtl grey\nf 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+
+/* A box with its fronts outside, all of whose faces have two sides, is a room inside: of both
+ * sides' light half goes there. One that has a lid of two sides alone sends half of that's up. */
+START_TEST(test_two_sided_box)
+{
+    const double opposite = 0.1998248956983874, beside = 0.2000437760754032;
+    double f[49];
+    matrix(BOX "f 5 6 7 8\n", "--two-sided", 6, f);
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 6; k++)
+            ck_assert_double_eq_tol(f[6 * i + k],
+                                    i == k                              ? 0
+                                    : i % 5 == 0 && k % 5 == 0          ? opposite / 2
+                                    : i % 5 && k % 5 && abs(i - k) == 2 ? opposite / 2
+                                                                        : beside / 2,
+                                    1e-6);
+    matrix(BOX "usemtl grey_2s\nf 5 6 7 8\nusemtl grey\nv 0 0 2\nv 0 1 2\nv 1 1 2\nv 1 0 2\n"
+               "f 9 10 11 12\n",
+           "", 7, f);
+    ck_assert_double_eq_tol(f[7 * 5 + 6], opposite / 2, 1e-6);
+    ck_assert_double_eq_tol(f[7 * 6 + 5], opposite, 1e-6);
+    for (int i = 0; i < 5; i++)
+        ck_assert(f[7 * i + 5] == 0 && f[7 * 5 + i] == 0);
 }
 END_TEST
 
@@ -502,6 +531,7 @@ int main(void)
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_clear);
     tcase_add_test(c, test_obstructed);
+    tcase_add_test(c, test_two_sided_box);
     tcase_add_test(c, test_rows);
     tcase_add_test(c, test_formats);
     tcase_add_test(c, test_empty_room);
