@@ -240,11 +240,13 @@ static int make_cone(const struct watcher *w, const struct seen_face *of, const 
         h[i] = over * (dot3(of->normal, s->p[i]) + of->height);
         low = h[i] < low ? h[i] : low;
         high = h[i] > high ? h[i] : high;
+        if (fabs(h[i]) <= w->view->near) /* a sliver's side would have any direction */
+            h[i] = 0;
     }
     int flat = high <= w->view->near;
     if (flat && (low < -w->view->near || of->height > 0 || s->height < 0))
         return 0; /* behind; or in the plane, and no front on a back */
-    if (flat || low >= 0)
+    if (flat || low >= -w->view->near)
         memcpy(q, s->p, (size_t)n * sizeof *q);
     else
         n = polygon_divide(&s->p[0][0], n, 3, h, EDGES, &q[0][0], NULL, NULL);

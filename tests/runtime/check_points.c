@@ -246,6 +246,28 @@ START_TEST(test_soup)
 }
 END_TEST
 
+/* A sheet that may stick out through a wall, from points on the floor: each row sums to 1. */
+START_TEST(test_pierced)
+{
+    uint64_t state = 11;
+    for (int i = 0; i < 2000; i++) {
+        struct soup *s = soup_new();
+        double o[3], a[3], b[3];
+        add_room(s);
+        for (int k = 0; k < 3; k++) {
+            o[k] = (k == 1 ? 3 : 2) * random_number(&state);
+            a[k] = 1.5 * (random_number(&state) - .5);
+            b[k] = 1.5 * (random_number(&state) - .5);
+        }
+        add_quad(s, 1, o, a, b);
+        const double x[3] = {.1 + 1.8 * random_number(&state), .1 + 2.8 * random_number(&state), 0},
+                     up[3] = {0, 0, 1};
+        free(see(s, x, up));
+        free(s);
+    }
+}
+END_TEST
+
 /* A sphere of 2 * bands * bands triangles and quads, 1 m from the element; seen from inside it, and
  * from outside in front of a wall of one face, which all of them hide. */
 START_TEST(test_many)
@@ -354,6 +376,7 @@ int main(void)
     tcase_add_test(t, test_closed_forms);
     tcase_add_test(t, test_shadows);
     tcase_add_test(t, test_soup);
+    tcase_add_test(t, test_pierced);
     tcase_add_test(t, test_many);
     tcase_add_test(t, test_on_walls);
     tcase_add_test(t, test_errors);
