@@ -180,7 +180,7 @@ static void keep_edges(const struct looking_past *l, const struct element *e)
     for (int i = 0; i < e->vertices; i++) {
         double x[3];
         for (int k = 0; k < 3; k++)
-            x[k] = e->vertex[i][k] + l->tree->host.ray_offset * e->normal[k];
+            x[k] = e->vertex[i][k] + l->tree->lift * e->normal[k];
         sight_in_plane(&l->sight.raised, x, corner[i]);
     }
     z->own = 0;
@@ -201,7 +201,7 @@ static int is_hidden(const struct looking_past *l, const double x[3])
 {
     double to[3], along[3];
     for (int k = 0; k < 3; k++)
-        to[k] = l->to->centre[k] + l->tree->host.ray_offset * l->to->normal[k];
+        to[k] = l->to->centre[k] + l->tree->lift * l->to->normal[k];
     sub3(along, to, x);
     for (int i = 0; i < l->list->count; i++) {
         const struct element *e = &l->tree->h.elements[l->list->face[i]];
@@ -239,7 +239,7 @@ static int look(const struct looking_past *l, const double n[3], struct horizon_
     const struct horizon *z = l->horizon;
     double x[3], from[3], h[POLYGON_MAX];
     for (int k = 0; k < 3; k++)
-        x[k] = view->x[k] + l->tree->host.ray_offset * n[k];
+        x[k] = view->x[k] + l->tree->lift * n[k];
     sight_in_plane(&l->sight.raised, x, from);
     view->lines = view->hidden = 0;
     if (!(from[2] > 0))
@@ -431,7 +431,7 @@ static int place(struct looking_past *l, const struct shaft *shaft, struct face_
     struct horizon *z = l->horizon;
     struct polygon all = {.n = l->to->vertices};
     memcpy(all.v, l->to->vertex, sizeof l->to->vertex);
-    sight_open(&l->sight, l->to, &all, l->tree->host.ray_offset);
+    sight_open(&l->sight, l->to, &all, l->tree->lift);
     z->edges = z->cells = 0;
     for (int i = 0; i < l->list->count; i++)
         if (add_face(l, shaft, l->list->face[i]) < 0)

@@ -93,7 +93,7 @@ static void make_screen(struct screen *screen, const struct exchange_tree *t,
                         const struct element *group, struct face_range faces)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    outline_frame_of(&screen->frame, group, t->host.ray_offset);
+    outline_frame_of(&screen->frame, group, t->lift);
     screen->count = faces.to - faces.from;
     for (uint32_t j = 0; j < screen->count; j++) {
         struct shadow_cell *c = &screen->cells[j];
@@ -313,11 +313,11 @@ double shadow_block(const struct exchange_pair *pair, const struct blockers *lis
     for (uint32_t i = from.from; i < from.to; i++) {
         struct points points;
         const struct element *e = exchange_tree_face(t, i);
-        outline_points(e, t->host.ray_offset, OUTLINE_FEW, points.x, points.weight);
+        outline_points(e, t->lift, OUTLINE_FEW, points.x, points.weight);
         points.corners = e->vertices;
         for (int v = 0; v < e->vertices; v++)
             for (int k = 0; k < 3; k++)
-                points.corner[v][k] = e->vertex[v][k] + t->host.ray_offset * e->normal[k];
+                points.corner[v][k] = e->vertex[v][k] + t->lift * e->normal[k];
         see_screen(&screen, &points, blockers, list->count, scratch->sights);
         for (uint32_t j = 0; j < screen.count; j++) {
             double *value = &values[(i - from.from) * step_i + j * step_j], all = *value,

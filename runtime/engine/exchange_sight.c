@@ -196,7 +196,7 @@ static double past_faces(const struct looking *l, const double x[3], const doubl
                          double *whole)
 {
     struct sight_between *b = l->scratch->between;
-    double up = l->tree->host.ray_offset;
+    const double up = l->tree->lift;
     if (l->by_bodies) {
         const double seen = sight_rims_past(&l->sight, x, n, up, l->scratch->bodies, whole);
         if (seen >= 0)
@@ -400,7 +400,7 @@ static double missed(const struct looking *l, int at)
     struct sight_eyes eyes;
     if (!(node->piece.area * most > l->from->area))
         return 0;
-    sight_eyes_open(&eyes, &l->sight, l->tree->host.ray_offset);
+    sight_eyes_open(&eyes, &l->sight, l->tree->lift);
     sight_eyes_add(&eyes, &node->piece);
     for (int q = 0; q < QUARTERS && node->quarters; q++)
         sight_eyes_add(&eyes, &quarters[q].piece);
@@ -674,7 +674,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
                  l.from->normal);
     if (part.n == 0 || seen.n == 0)
         return 0;
-    sight_open(&l.sight, l.to, &seen, host->ray_offset);
+    sight_open(&l.sight, l.to, &seen, t->lift);
     /* of bent faces one too many may hide what it does not stand before */
     l.shared = stands == BETWEEN_SOME && !scratch->between->bent
                && scratch->between->faces <= SIGHT_SHARED && place_between(&l) == 0;

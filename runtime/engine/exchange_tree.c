@@ -124,6 +124,7 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
     t->host = *rays_host(t->rays);
     t->host.ray_offset *= share;
     t->host.flat *= share;
+    t->lift = SIGHT_LIFT * t->host.ray_offset;
     t->host.occluded = occluded;
     t->host.candidates = candidates;
     t->host.corners = corners;

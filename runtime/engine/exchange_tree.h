@@ -12,6 +12,7 @@
 struct exchange_tree {
     /* first, so that a host is its tree: rays, and what stands in a shaft, by groups */
     struct host host;
+    double lift; /* how far off their faces points look from past others (m): no ray is cast */
     struct hierarchy h;
     struct mates mates; /* of what stands in shafts */
     struct bodies bodies;

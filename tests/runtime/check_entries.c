@@ -69,6 +69,29 @@ static double judge(const double (*quad)[4][3], double tolerance, int cells)
     return worst;
 }
 
+/* A plate 5 cm over a face hides nearly all of a lamp from it, the more so in its middle. How large
+ * the scene is besides does not matter: another face stands by, 10 or 100 m away. */
+START_TEST(test_far_face)
+{
+    static const double far[] = {10, 100};
+    double quad[4][4][3] =
+        {{{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}},
+         {{-2, 2, 0.5}, {2, 2, 0.5}, {2, -2, 0.5}, {-2, -2, 0.5}},
+         {{-0.2, 0.2, 0.05}, {0.2, 0.2, 0.05}, {0.2, -0.2, 0.05}, {-0.2, -0.2, 0.05}}},
+           f[16];
+    const double(*all)[4][3] = (const double(*)[4][3])quad,
+          right = judge_factor(all[0], all[1], all[2], 48);
+    for (int i = 0; i < 2; i++) {
+        const double x = far[i];
+        const double away[4][3] = {{x, 0, -1}, {x + 1, 0, -1}, {x + 1, 1, -1}, {x, 1, -1}};
+        memcpy(quad[3], away, sizeof away);
+        (void)factors_of(4, all, 1e-4, f);
+        printf("beside a face %g m away %.7f, right: %.7f\n", x, f[1], right);
+        ck_assert_double_eq_tol(f[1], right, 1e-4 * right);
+    }
+}
+END_TEST
+
 START_TEST(test_crossing_planes)
 {
     static const double quad[QUADS][4][3] = {
@@ -324,6 +347,7 @@ int main(void)
     TCase *tests = tcase_create("entries");
     tcase_set_timeout(tests, 60);
     suite_add_tcase(suite, tests);
+    tcase_add_test(tests, test_far_face);
     tcase_add_test(tests, test_crossing_planes);
     tcase_add_test(tests, test_small_shades);
     tcase_add_test(tests, test_touching);
