@@ -7,7 +7,8 @@
 #include "engine/dim_parts.h"
 #include "engine/polygon_rows.h"
 
-/* A polygon or a part, and what of it reflects and is not covered by what stands on it (m2). */
+/* A polygon or a part, and what of it reflects and is not covered by what stands on it (m2), a dark
+ * side with a lit one: a face is as large as both its sides, wherever that is asked. */
 struct candidate {
     uint32_t part;
     double area;
@@ -27,12 +28,18 @@ static double open_area(const struct dim_faces *d, uint32_t face)
     return tracer_reflectance(t, face) > 0 ? uncovered * tracer_surface(t, face)->area : 0;
 }
 
-/* [parts]: what of each is open (m2), the caller's. NULL when out of memory. */
+/* [parts]: the area of each candidate (m2), 0 where nothing is lit; the caller's. NULL when out of
+ * memory. */
 static double *part_areas(const struct dim_faces *d)
 {
+    const struct hierarchy *h = d->tracer->hierarchy;
     double *area = calloc((size_t)d->parts + 1, sizeof *area);
-    for (uint32_t i = 0; i < d->tracer->hierarchy->face_count && area; i++)
+    for (uint32_t i = 0; i < h->face_count && area; i++)
         area[d->part[i]] += open_area(d, i);
+    for (uint32_t i = 0; i < h->face_count && area; i++)
+        if (h->faces[i].light == FACE_DARK && d->solve->problem.whitest[i] > 0
+            && area[d->part[i]] > 0)
+            area[d->part[i]] += tracer_surface(d->tracer, i)->area;
     return area;
 }
 

@@ -164,6 +164,16 @@ static int solve_once(struct solved *s, struct coarse_first *coarse, struct meas
  * is kept quiet; chosen: a tenth of what eyes tell apart */
 static const double GAIN_TOLD = 0.01;
 
+/* Does any face emit, shut in or not? */
+static int has_lamp(const struct surfaces *s)
+{
+    int has = 0;
+    for (uint32_t i = 0; i < s->polygon_count; i++)
+        for (int k = 0; k < 3 && s->polygon_areas[i] > 0; k++)
+            has |= s->materials[s->polygon_materials[i]].exitance[k] > 0;
+    return has;
+}
+
 /* Solve by the oracle and write the outputs. Returns the exit status. */
 static int solve_by(const struct options *o, const struct open_scene *scene, RadOracle oracle)
 {
@@ -205,15 +215,18 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
         return status < 0 ? 1 : status;
     radGetReport(s.solution, &s.report);
     const int unfinished = solved_status(&s.report, o->scene);
-    if (s.report.absorbed > (1 + GAIN_TOLD) * s.report.emitted)
+    if (s.report.emitted > 0 && s.report.absorbed > (1 + GAIN_TOLD) * s.report.emitted)
         report_warning(o->scene, 0,
                        "%.2g %% more is absorbed than emitted, which is error: use finer links "
                        "(smaller thresholds, --set)",
                        100 * (s.report.absorbed / s.report.emitted - 1));
     if (!(s.report.emitted > 0) && !o->quiet)
-        report_warning(o->scene, 0,
-                       "no face emits, so all is dark; give a face a material that does: Ke above "
-                       "0 in an .mtl file");
+        report_warning(o->scene, 0, "%s",
+                       has_lamp(&surfaces)
+                           ? "all that emits is shut in by the backs of faces, as in a solid: if "
+                             "these are turned the wrong way, turn them, or take --two-sided"
+                           : "no face emits, so all is dark; give a face a material that does: Ke "
+                             "above 0 in an .mtl file");
     if (!o->quiet) {
         measured_warn(&measured, o->scene);
         power_promise_warn(&promise, o->scene);

@@ -4,10 +4,13 @@
  * particles. What links say of one wall of the dark one is spoilt.
  * SPDX-License-Identifier: MIT */
 #include "runtime/make_solve.h"
+#include "scene/read_scene.h"
 #include "engine/dim_belief.h"
 #include "engine/dim_faces.h"
+#include "engine/dim_list.h"
 #include "engine/dim_parts.h"
 #include "engine/dim_plan.h"
+#include "engine/lit_faces.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/solve_tracer.h"
@@ -275,6 +278,32 @@ START_TEST(test_large_budget)
 }
 END_TEST
 
+/* A box of faces with two sides, whose insides are dark, in a room: each is as large as both. */
+START_TEST(test_dark_side)
+{
+    struct scene scene;
+    struct solve s;
+    ck_assert_int_eq(scene_read(&scene, "tests/runtime/dark_box.obj", &(struct scene_options){0}),
+                     0);
+    const char *cause;
+    ck_assert_int_eq(lit_faces_find(&scene, NULL, 1, &cause), 0);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
+    uint32_t dark = 0;
+    for (uint32_t i = 0; i < s.hierarchy.face_count; i++)
+        dark += s.hierarchy.faces[i].light == FACE_DARK;
+    ck_assert_uint_eq(dark, 6);
+    struct tracer t = solve_tracer(&s);
+    ck_assert_int_eq(tracer_open(&t), 0);
+    struct dim_faces d = {.size = DIM_LARGE_ONES, .solve = &s, .tracer = &t};
+    ck_assert_int_eq(dim_list_open(&d, 100), 0);
+    ck_assert_uint_eq(d.count, 12);
+    dim_list_close(&d);
+    tracer_close(&t);
+    solve_close(&s);
+    scene_free(&scene);
+}
+END_TEST
+
 /* Groups are of one wall each, and no face that is small is left out. */
 START_TEST(test_groups)
 {
@@ -458,6 +487,7 @@ int main(void)
     tcase_add_test(tests, test_found);
     tcase_add_test(tests, test_stood_on);
     tcase_add_test(tests, test_unsure);
+    tcase_add_test(tests, test_dark_side);
     tcase_add_test(tests, test_groups);
     tcase_add_test(tests, test_groups_told);
     tcase_add_test(tests, test_plan);

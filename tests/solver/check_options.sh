@@ -311,6 +311,13 @@ rm -f out err i.png e.png
 sed 's/^Ke .*/Ke 0 0 0/' "${scene%.obj}.mtl" >furnace.mtl && cp "$scene" dark.obj
 count=$((count + 1))
 "$radiosity" solve dark.obj >out 2>err && [ "$(wc -l <err)" = 1 ] && grep -q '^dark.obj: warning: no face emits, so all is dark; give ' err || failed "no lamp"
+# a lamp that looks into a box with its fronts outside
+{
+    printf 'newmtl w\nKd .5 .5 .5\nnewmtl lamp\nKe 100 100 100\n' >shut.mtl
+    printf 'mtllib shut.mtl\nusemtl w\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n'
+    printf 'usemtl lamp\nv .3 .3 .5\nv .7 .3 .5\nv .7 .7 .5\nv .3 .7 .5\nf -4 -3 -2 -1\n'
+} >shut.obj
+"$radiosity" solve shut.obj >out 2>err && grep -q '^shut.obj: warning: all that emits is shut in by the backs of faces' err && ! grep -q 'inf\|no face emits' out err || failed "a lamp that is shut in"
 rm -f out err dark.obj furnace.mtl
 
 # ---- a chart of a single threshold draws without a word
