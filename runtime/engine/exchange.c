@@ -224,8 +224,8 @@ static void know_covered(struct exchange_loss *way, double covered, int side)
         way->covered = covered;
 }
 
-/* A row that lacks more than chance explains, and than one point stands for, where few points show
- * no way out, may have something small stand on it. */
+/* A row that lacks more than the tolerance, and than one point stands for, where few points show no
+ * way out, may have something small stand on it, or see a way out that is small or far. */
 static void ask_rows(const void *asking, size_t from, size_t to)
 {
     const struct asking *a = asking;
@@ -242,7 +242,7 @@ static void ask_rows(const void *asking, size_t from, size_t to)
         *way = ask_row(a->exchange, (uint32_t)i, environment_coarse);
         know_covered(way, covered, environment_coarse.side);
         if (!is_closed(way)
-            || !(1 - a->share[i] > fmax(cell, EXCHANGE_OFF * a->options->tolerance)))
+            || !(1 - a->share[i] > fmax(cell, a->options->tolerance)))
             continue;
         *way = ask_row(a->exchange, (uint32_t)i, environment_fine);
         know_covered(way, covered, environment_fine.side);

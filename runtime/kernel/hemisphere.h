@@ -30,14 +30,22 @@ static inline struct hemisphere hemisphere_over(const double n[3])
     return h;
 }
 
-/* Direction m of `count`; `turn`: by which part of a golden angle the whole spiral is turned. */
-static inline void hemisphere_direction(double out[3], const struct hemisphere *h, int m, int count,
-                                        double turn)
+/* Direction m of `count`; `turn`: by which part of a golden angle the whole spiral is turned;
+ * `ring`: where in its ring it is, in [0, 1). */
+static inline void hemisphere_direction_in(double out[3], const struct hemisphere *h, int m,
+                                           int count, double turn, double ring)
 {
-    double angle = 2.39996322972865332 * (m + turn), r = sqrt((m + 0.5) / count),
+    double angle = 2.39996322972865332 * (m + turn), r = sqrt((m + ring) / count),
            z = sqrt(1 - r * r);
     for (int k = 0; k < 3; k++)
         out[k] = z * h->n[k] + r * (cos(angle) * h->u[k] + sin(angle) * h->v[k]);
+}
+
+/* The same in the middle of its ring. */
+static inline void hemisphere_direction(double out[3], const struct hemisphere *h, int m, int count,
+                                        double turn)
+{
+    hemisphere_direction_in(out, h, m, count, turn, 0.5);
 }
 
 #endif

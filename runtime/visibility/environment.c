@@ -10,10 +10,11 @@
 #include "kernel/hemisphere.h"
 #include "kernel/surface_point.h"
 
-/* 1 / g and 1 / g^2, g^3 = g + 1 */
-static const double STEP[2] = {0.75487766624669276, 0.56984029099805327};
+/* 1 / g and 1 / g^2, g^3 = g + 1; and the golden ratio's */
+static const double STEP[3] = {0.75487766624669276, 0.56984029099805327, 0.61803398874989485};
 
-/* Where in its cell point i stands. */
+/* Where in its cell point i stands, and where in their rings its rays go: in the middle of the
+ * outermost of 16 none is nearer to the surface than 10 degrees. */
 static double within(const struct environment_grid *grid, int i, int k)
 {
     const double x = 0.5 + i * STEP[k];
@@ -35,7 +36,8 @@ struct environment environment_of(const struct rays *rays, const struct element 
         for (int k = 0; k < 3; k++)
             p[k] += offset * surface->normal[k];
         for (int m = 0; m < grid.directions; m++) {
-            hemisphere_direction(d, &above, m, grid.directions, i / (double)points);
+            hemisphere_direction_in(d, &above, m, grid.directions, i / (double)points,
+                                    within(&grid, i, 2));
             met[rays_first(rays, p, d, NULL, NULL)]++;
         }
         if (met[RAY_MEETS_BACK] >= ENVIRONMENT_BACKS * grid.directions) {

@@ -14,10 +14,10 @@ struct environment {
     int covered;
 };
 
-/* Points in side x side cells, each with so many rays: in the middles of the cells, or anywhere in
- * them, as rows may all miss a strip along them. What is smaller than a cell may be missed. Few
- * points with many rays share out well what goes far away, many with few find what small feet
- * cover. */
+/* Points in side x side cells, each with so many rays: in the middles of the cells and of the rays'
+ * rings, or anywhere in them, as rows may all miss a strip along them. What is smaller than a cell
+ * may be missed. Few points with many rays share out well what goes far away, many with few find
+ * what small feet cover. */
 struct environment_grid {
     int side, directions, anywhere;
 };
