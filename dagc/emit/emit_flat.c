@@ -32,11 +32,25 @@ static const struct arc *arc_of(const struct flat *flat, const struct node *node
     return &flat->dag->arcs[node->arcs.first + answer];
 }
 
+/* Out of a function for a piece of the graph: by which exit; -1: the answer stays in it. */
+static int exit_of(const struct flat *flat, const struct node *node, int answer)
+{
+    const struct shared *s = flat->inside;
+    return s == NULL ? -1 : s->exit_of[s->first_answer[flat->member[node->order]] + answer];
+}
+
+/* Two exits are two ways, also where the use that the nodes are of sends both to one place. */
+static int same_way_on(const struct flat *flat, const struct node *node, int a, int b)
+{
+    return exit_of(flat, node, a) == exit_of(flat, node, b)
+           && same_target(&arc_of(flat, node, a)->target, &arc_of(flat, node, b)->target);
+}
+
 /* Do all answers lead to one target? Then there is nothing to ask. */
 static int decides_nothing(const struct flat *flat, const struct node *node)
 {
     for (int i = 1; i < node->arcs.count; i++)
-        if (!same_target(&arc_of(flat, node, 0)->target, &arc_of(flat, node, i)->target))
+        if (!same_way_on(flat, node, 0, i))
             return 0;
     return 1;
 }
@@ -204,11 +218,10 @@ static void print_way(const struct flat *flat, int number, int indent)
     print_way(flat, way->below, indent);
 }
 
-/* Out of a function for a piece of the graph: which exit; 0: the target is in it. */
-static int print_exit(const struct flat *flat, int from, int answer)
+/* 0: the answer does not leave the function. */
+static int print_exit(const struct flat *flat, const struct node *node, int answer)
 {
-    const struct shared *s = flat->inside;
-    int exit = s == NULL ? -1 : s->exit_of[s->first_answer[flat->member[from]] + answer];
+    int exit = exit_of(flat, node, answer);
     if (exit >= 0)
         dag_print(flat->out, "return %d;\n", exit);
     return exit >= 0;
@@ -267,7 +280,7 @@ static void print_switch(const struct flat *flat, const struct node *node, const
     for (int i = 0; i < node->arcs.count; i++) {
         const struct target *target = &arc_of(flat, node, i)->target;
         for (int j = i; j < node->arcs.count; j++)
-            if (!done[j] && same_target(target, &arc_of(flat, node, j)->target)) {
+            if (!done[j] && same_way_on(flat, node, i, j)) {
                 dag_print(flat->out, "    case ");
                 print_constant(flat->out, tool->name, answers[j].name);
                 dag_print(flat->out, ":\n");
@@ -278,7 +291,7 @@ static void print_switch(const struct flat *flat, const struct node *node, const
             dag_print(flat->out, "%s", left == 0 ? "    default:\n" : "");
             dag_flat_directive(flat, arc_of(flat, node, i)->where);
             dag_print(flat->out, "        ");
-            if (!print_exit(flat, node->order, i))
+            if (!print_exit(flat, node, i))
                 dag_flat_jump(flat, node->order, target, copy->ways[i], 8);
         }
         for (int j = i; j < node->arcs.count; j++)
@@ -410,7 +423,7 @@ void dag_flat_node(const struct flat *flat, int at)
     if (!falls_through(flat, at)) {
         dag_flat_directive(flat, arc_of(flat, node, 0)->where);
         dag_print(flat->out, "    ");
-        if (!print_exit(flat, node->order, 0))
+        if (!print_exit(flat, node, 0))
             dag_flat_jump(flat, node->order, &arc_of(flat, node, 0)->target, copy->ways[0], 4);
     }
 }

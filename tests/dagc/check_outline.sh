@@ -97,6 +97,27 @@ for change in 's/return 1;/return 0;/' 's/(discussion, argument_1,/(discussion, 
     check "a fault: $change" sh -c "CC='$tmp/broken' '$dagc' -Wno-all --catalog '$catalog' --prove --outline often.dag | grep -q 'differs in'"
 done
 
+# The first use sends both exits to one place, in one switch and behind one question; the others do not.
+cat >apart.dag <<'END'
+graph two() exits (u, v) {
+  start a;
+  node a = weigh(most = 1, share = 0.5) { light -> b; heavy -> u; }
+  node b = weigh(most = 2, share = 0.5) { light -> c; heavy -> u; }
+  node c = weigh(most = 3, share = 0.5) { light -> d; heavy -> u; }
+  node d = tally(upto = 2, scale = 1) { few -> e; some -> u; many -> v; }
+  node e = weigh(most = 4, share = 0.5) { light -> u; heavy -> v; }
+}
+oracle apart {
+  start s;
+  node s = look() { left -> p; right -> q; neither -> r; }
+  node p = two() { u | v -> drop; }
+  node q = two() { u -> drop; v -> split; }
+  node r = two() { u -> split; v -> drop; }
+}
+END
+check "exits apart: one function" sh -c "[ \"\$('$dagc' -Wno-all --catalog '$catalog' --outline apart.dag | grep -c apart_branch_two)\" = 4 ]"
+check "exits that one use joins" sh -c "'$dagc' -Wno-all --catalog '$catalog' --prove --outline apart.dag | grep -q 'apart: proved on'"
+
 # What cannot be, or would not be shorter, stays: an argument that computes a term; three nodes.
 sed 's/share = 0.125/share = min(1, abs(size.rough))/' often.dag >reads.dag
 check "terms are read where they were" sh -c "! '$dagc' -Wno-all --catalog '$catalog' --outline reads.dag | grep -q branch_whole"
