@@ -2,11 +2,14 @@
  *
  * A state is a node (or leaf) of each graph, what has been written to the data manager on either
  * side, and the answers given so far that one of the two may still come to ask about. A question is
- * a tool, its arguments (parameters by name, numbers by value) and the levels of the terms that it
- * and its arguments read, as its side has written them; whoever asks it again gets the answer it
- * had. A state that was seen is not walked again, and where both sides stand before the same
- * subgraph with the same terms nothing can differ, so the work is polynomial in all but the answers
- * that stay relevant; it is capped, and a walk that was cut short says so.
+ * a tool, its arguments (parameters by name, numbers by value) and what its side has done to the
+ * terms that it and its arguments read; whoever asks it again gets the answer it had. What is done
+ * to a term is known by levels where arguments read it: they say at which. A tool says less: what
+ * it writes is its own, and what it reads it may leave finer than it was, unless the term has no
+ * levels or is at its last. So these count by who they were, in which order; the same question
+ * finds what it left. A state that was seen is not walked again, and where both sides stand before
+ * the same subgraph with the same terms nothing can differ, so the work is polynomial in all but
+ * the answers that stay relevant; it is capped, and a walk that was cut short says so.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
@@ -20,10 +23,17 @@ struct question {
     int side, node; /* where it was first seen */
 };
 
-/* One that has been asked, with the levels of what it reads. */
+/* What a side has done to a term. */
+struct known {
+    uint64_t history; /* a hash of the tools that may have changed it, in their order */
+    uint64_t last;    /* the last of them, if nothing came after it */
+    uint64_t level;   /* at least */
+};
+
+/* One that has been asked: a hash of what it reads as it found that, and as reading left it. */
 struct asked {
     int base, answer;
-    const unsigned char *levels; /* [read_count] */
+    uint64_t found, left;
 };
 
 struct group { /* ways to decide that differ, by what was asked last on either side */
@@ -34,10 +44,10 @@ struct side {
     struct dag *dag;
     const struct oracle_graph *oracle;
     const char *path;
-    int *base;             /* by order: in bases */
-    unsigned char *reach;  /* [order][bases in bits]: may it still be asked from here? */
-    uint64_t *subgraph;    /* by order: a hash of all that follows */
-    unsigned char *levels; /* by term: written so far */
+    int *base;            /* by order: in bases */
+    unsigned char *reach; /* [order][bases, then terms, in bits]: is it asked or read from here? */
+    uint64_t *subgraph;   /* by order: a hash of all that follows */
+    struct known *known;  /* by term */
     struct target at;
     int last; /* the node that led to `at`; its order */
 };
@@ -49,8 +59,7 @@ struct walk {
     int base_count, bytes;
     struct asked *trail;
     int trail_count;
-    unsigned char *kept; /* per item of the trail, kept_size bytes: what it has to put back */
-    size_t kept_size;
+    struct known *kept; /* by item of the trail, of either side by term: what it has to put back */
     uint64_t *seen;
     int states, cut;
     struct group groups[GROUPS_MAX];
@@ -105,28 +114,65 @@ static int same_base(const struct side *a, const struct node *x, const struct si
     return 1;
 }
 
-/* What an answer depends on: the terms that the arguments read, then those of the tool. */
-static int read_count(const struct dag *dag, const struct node *node)
+static uint64_t mix(uint64_t x, uint64_t y)
 {
-    return node->reads.count + dag->tools[node->tool].reads.count;
+    x = (x ^ y) * UINT64_C(0x9e3779b97f4a7c15);
+    return x ^ x >> 29;
 }
 
-/* The level of the term when the tool is asked: its arguments have been evaluated by then. */
-static unsigned char level_at(const struct side *side, const struct node *node, int term)
+static void change(struct known *known, uint64_t tool)
 {
-    unsigned char level = side->levels[term];
+    if (known->last == tool) /* it finds what it left */
+        return;
+    known->history = mix(mix(known->history, known->level), tool);
+    known->last = tool;
+}
+
+static int reads(const struct dag *dag, struct span needs, int term)
+{
+    for (int i = needs.first; i < needs.first + needs.count; i++)
+        if (dag->needs[i].term == term)
+            return 1;
+    return 0;
+}
+
+/* The term when the tool is asked: its arguments have been evaluated by then. With a reader, who
+ * stands for the tool: once it has read its terms, too. */
+static struct known known_at(const struct side *side, const struct node *node, int term,
+                             uint64_t reader)
+{
+    const struct dag *dag = side->dag;
+    const uint64_t levels = (uint64_t)dag->terms[term].levels.count;
+    struct known known = side->known[term];
     for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
-        if (side->dag->needs[i].term == term && side->dag->needs[i].level > level)
-            level = (unsigned char)side->dag->needs[i].level;
-    return level;
+        if (dag->needs[i].term == term && (uint64_t)dag->needs[i].level > known.level) {
+            known.level = (uint64_t)dag->needs[i].level;
+            known.last = 0;
+        }
+    if (reader != 0 && known.level < levels && reads(dag, dag->tools[node->tool].reads, term))
+        change(&known, reader);
+    return known;
 }
 
-static unsigned char level_read(const struct side *side, const struct node *node, int k)
+/* What an answer depends on: the terms that the arguments read, then those of the tool. */
+static uint64_t hash_reads(const struct side *side, const struct node *node, uint64_t reader)
 {
-    const struct tool *tool = &side->dag->tools[node->tool];
-    int need =
-        k < node->reads.count ? node->reads.first + k : tool->reads.first + k - node->reads.count;
-    return level_at(side, node, side->dag->needs[need].term);
+    const struct span needs[] = {node->reads, side->dag->tools[node->tool].reads};
+    uint64_t hash = 5;
+    for (int k = 0; k < 2; k++)
+        for (int i = needs[k].first; i < needs[k].first + needs[k].count; i++) {
+            struct known known = known_at(side, node, side->dag->needs[i].term, reader);
+            hash = mix(mix(hash, known.history), known.level);
+        }
+    return hash;
+}
+
+/* A tool as one who changes terms, by reading or by writing them. */
+enum { READS = 6, WRITES };
+static uint64_t changer(const struct asked *asked, int how)
+{
+    uint64_t hash = mix(mix((uint64_t)how, (uint64_t)asked->base), asked->found);
+    return hash == 0 ? 1 : hash;
 }
 
 /* Bases are looked for among those of the same tool: chains, newest first. */
@@ -160,9 +206,14 @@ static void find_bases(struct walk *walk)
     }
 }
 
+static void set_bit(unsigned char *bits, int i)
+{
+    bits[i / 8] |= (unsigned char)(1 << i % 8);
+}
+
 static void find_reach(struct walk *walk)
 {
-    walk->bytes = (walk->base_count + 7) / 8;
+    walk->bytes = (walk->base_count + walk->side[0].dag->term_count + 7) / 8;
     for (int s = 0; s < SIDES; s++) {
         struct side *side = &walk->side[s];
         int count = side->oracle->order.count;
@@ -170,7 +221,11 @@ static void find_reach(struct walk *walk)
         for (int i = count - 1; i >= 0; i--) {
             const struct node *node = node_at(side, i);
             unsigned char *row = side->reach + (size_t)i * (size_t)walk->bytes;
-            row[side->base[i] / 8] |= (unsigned char)(1 << side->base[i] % 8);
+            set_bit(row, side->base[i]);
+            for (int t = 0; t < side->dag->term_count; t++)
+                if (reads(side->dag, node->reads, t)
+                    || reads(side->dag, side->dag->tools[node->tool].reads, t))
+                    set_bit(row, walk->base_count + t);
             for (int a = 0; a < node->arcs.count; a++) {
                 const struct target *target = &side->dag->arcs[node->arcs.first + a].target;
                 if (target->kind != TARGET_NODE)
@@ -183,12 +238,6 @@ static void find_reach(struct walk *walk)
             }
         }
     }
-}
-
-static uint64_t mix(uint64_t x, uint64_t y)
-{
-    x = (x ^ y) * UINT64_C(0x9e3779b97f4a7c15);
-    return x ^ x >> 29;
 }
 
 static uint64_t subgraph_of(const struct side *side, const struct target *target)
@@ -213,19 +262,12 @@ static void find_subgraphs(struct walk *walk)
     }
 }
 
-/* Nothing that follows can differ: the same graph lies before both, with the same terms. */
-static int must_agree(const struct walk *walk)
-{
-    const struct side *a = &walk->side[0], *b = &walk->side[1];
-    return subgraph_of(a, &a->at) == subgraph_of(b, &b->at)
-           && memcmp(a->levels, b->levels, (size_t)a->dag->term_count) == 0;
-}
-
 static int place_of(const struct side *side)
 {
     return side->at.kind == TARGET_NODE ? side->dag->nodes[side->at.index].order : -1;
 }
 
+/* May the side still ask a question with this base, or read the term behind all bases? */
 static int may_ask(const struct walk *walk, const struct side *side, int base)
 {
     int place = place_of(side);
@@ -234,20 +276,31 @@ static int may_ask(const struct walk *walk, const struct side *side, int base)
                & 1);
 }
 
-/* The answer that the question of this side's node has had; -1: none yet. */
-static int answer_known(const struct walk *walk, const struct side *side)
+/* Nothing that follows can differ: the same graph lies before both, with the same terms. */
+static int must_agree(const struct walk *walk)
+{
+    const struct side *a = &walk->side[0], *b = &walk->side[1];
+    if (subgraph_of(a, &a->at) != subgraph_of(b, &b->at))
+        return 0;
+    for (int t = 0; t < a->dag->term_count; t++)
+        if (may_ask(walk, a, walk->base_count + t)
+            && (a->known[t].history != b->known[t].history
+                || a->known[t].level != b->known[t].level))
+            return 0;
+    return 1;
+}
+
+/* When the question of this side's node has been asked; NULL: not yet. */
+static const struct asked *find_asked(const struct walk *walk, const struct side *side)
 {
     int place = place_of(side);
-    const struct node *node = node_at(side, place);
+    uint64_t reads = hash_reads(side, node_at(side, place), 0);
     for (int i = 0; i < walk->trail_count; i++) {
         const struct asked *asked = &walk->trail[i];
-        int same = asked->base == side->base[place];
-        for (int k = 0; same && k < read_count(side->dag, node); k++)
-            same = asked->levels[k] == level_read(side, node, k);
-        if (same)
-            return asked->answer;
+        if (asked->base == side->base[place] && (asked->found == reads || asked->left == reads))
+            return asked;
     }
-    return -1;
+    return NULL;
 }
 
 /* ---- states */
@@ -261,20 +314,16 @@ static uint64_t hash_state(const struct walk *walk)
         if (side->at.kind != TARGET_NODE) /* ways that differ are told apart by it */
             hash = mix(hash, (uint64_t)side->last);
         for (int t = 0; t < side->dag->term_count; t++)
-            hash = mix(hash, side->levels[t]);
+            if (may_ask(walk, side, walk->base_count + t))
+                hash = mix(mix(hash, side->known[t].history), side->known[t].level);
     }
     for (int i = 0; i < walk->trail_count; i++) {
         const struct asked *asked = &walk->trail[i];
-        const struct question *base = &walk->bases[asked->base];
         if (!may_ask(walk, &walk->side[0], asked->base)
             && !may_ask(walk, &walk->side[1], asked->base))
             continue;
-        const struct side *side = &walk->side[base->side];
-        const struct node *node = node_at(side, base->node);
         uint64_t one = mix(mix(2, (uint64_t)asked->base), (uint64_t)asked->answer);
-        for (int k = 0; k < read_count(side->dag, node); k++)
-            one = mix(one, asked->levels[k]);
-        answers += one; /* in whatever order they came */
+        answers += mix(one, asked->found); /* in whatever order they came */
     }
     hash = mix(hash, answers);
     return hash == 0 ? 1 : hash;
@@ -343,22 +392,29 @@ static void report(struct walk *walk)
 
 /* ---- the walk */
 
-/* One side takes the answer's arc; its arguments have then read their terms, and its tool has
- * written what it declares. */
-static void follow_arc(struct side *side, int answer)
+/* One side takes the answer's arc; its arguments and its tool have then read their terms, and the
+ * tool has written what it declares. */
+static void follow_arc(struct side *side, const struct asked *asked)
 {
-    const struct node *node = &side->dag->nodes[side->at.index];
-    const struct tool *tool = &side->dag->tools[node->tool];
-    for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
-        side->levels[side->dag->needs[i].term] = level_at(side, node, side->dag->needs[i].term);
-    int refuses = side->dag->answers[tool->answers.first + answer].refuses;
+    const struct dag *dag = side->dag;
+    const struct node *node = &dag->nodes[side->at.index];
+    const struct tool *tool = &dag->tools[node->tool];
+    const struct span needs[] = {node->reads, tool->reads};
+    for (int k = 0; k < 2; k++)
+        for (int i = needs[k].first; i < needs[k].first + needs[k].count; i++) {
+            int term = dag->needs[i].term;
+            side->known[term] = known_at(side, node, term, changer(asked, READS));
+        }
+    int refuses = dag->answers[tool->answers.first + asked->answer].refuses;
     for (int i = 0; i < tool->writes.count && !refuses; i++) {
-        const struct need *need = &side->dag->needs[tool->writes.first + i];
-        if (side->levels[need->term] < need->level)
-            side->levels[need->term] = (unsigned char)need->level;
+        const struct need *need = &dag->needs[tool->writes.first + i];
+        struct known *known = &side->known[need->term];
+        change(known, changer(asked, WRITES));
+        if (known->level < (uint64_t)need->level)
+            known->level = (uint64_t)need->level;
     }
     side->last = node->order;
-    side->at = side->dag->arcs[node->arcs.first + answer].target;
+    side->at = dag->arcs[node->arcs.first + asked->answer].target;
 }
 
 struct saved {
@@ -374,17 +430,15 @@ static void branch(struct walk *walk, int s)
     struct side *side = &walk->side[s];
     int place = place_of(side);
     const struct node *node = node_at(side, place);
-    size_t terms = (size_t)side->dag->term_count;
-    int reads = read_count(side->dag, node);
-    unsigned char *kept = walk->kept + (size_t)walk->trail_count * walk->kept_size;
+    const size_t terms = (size_t)side->dag->term_count;
+    struct known *kept = walk->kept + (size_t)walk->trail_count * SIDES * terms;
     struct asked *asked = &walk->trail[walk->trail_count];
-    for (int k = 0; k < reads; k++)
-        kept[2 * terms + (size_t)k] = level_read(side, node, k);
     asked->base = side->base[place];
-    asked->levels = kept + 2 * terms;
+    asked->found = hash_reads(side, node, 0);
+    asked->left = hash_reads(side, node, changer(asked, READS));
     struct saved saved;
     for (int i = 0; i < SIDES; i++) {
-        memcpy(kept + (size_t)i * terms, walk->side[i].levels, terms);
+        memcpy(kept + (size_t)i * terms, walk->side[i].known, terms * sizeof *kept);
         saved.at[i] = walk->side[i].at;
         saved.last[i] = walk->side[i].last;
     }
@@ -393,7 +447,7 @@ static void branch(struct walk *walk, int s)
         asked->answer = answer;
         walk_on(walk);
         for (int i = 0; i < SIDES; i++) {
-            memcpy(walk->side[i].levels, kept + (size_t)i * terms, terms);
+            memcpy(walk->side[i].known, kept + (size_t)i * terms, terms * sizeof *kept);
             walk->side[i].at = saved.at[i];
             walk->side[i].last = saved.last[i];
         }
@@ -407,9 +461,9 @@ static void walk_on(struct walk *walk)
     int next = -1;
     for (int s = 0; s < SIDES; s++) {
         struct side *side = &walk->side[s];
-        int answer;
-        while (side->at.kind == TARGET_NODE && (answer = answer_known(walk, side)) >= 0)
-            follow_arc(side, answer);
+        const struct asked *asked;
+        while (side->at.kind == TARGET_NODE && (asked = find_asked(walk, side)) != NULL)
+            follow_arc(side, asked);
         if (side->at.kind == TARGET_NODE && next < 0)
             next = s;
     }
@@ -464,19 +518,13 @@ static void begin(struct walk *walk)
     find_reach(walk);
     find_subgraphs(walk);
     size_t most = 1;
-    int reads = 0;
     for (int s = 0; s < SIDES; s++) {
         struct side *side = &walk->side[s];
-        side->levels = dag_alloc(arena, terms + 1);
+        side->known = dag_alloc(arena, terms * sizeof *side->known + 1);
         side->at = side->oracle->start;
         most += (size_t)side->oracle->order.count;
-        for (int i = 0; i < side->oracle->order.count; i++) {
-            int more = read_count(side->dag, node_at(side, i));
-            reads = more > reads ? more : reads;
-        }
     }
-    walk->kept_size = 2 * terms + (size_t)reads + 1;
-    walk->kept = dag_alloc(arena, most * walk->kept_size);
+    walk->kept = dag_alloc(arena, most * SIDES * terms * sizeof *walk->kept + 1);
     walk->trail = dag_alloc(arena, most * sizeof *walk->trail);
     walk->seen = dag_alloc(arena, TABLE_SIZE * sizeof *walk->seen);
     walk_on(walk);

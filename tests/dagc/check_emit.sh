@@ -85,6 +85,31 @@ sed 's/most = most/most = 1/' small.dag >number.dag
 check "diff: a number is not a parameter" status 1 "$dagc" diff --catalog "$catalog" small.dag number.dag
 sed 's/flux = 1 /flux = 2 /' small.dag >default.dag
 check "diff: a default" says '^+ parameter most = 2' "$dagc" diff --catalog "$catalog" small.dag default.dag
+# weigh may leave size finer, which has levels: the next one answers by that. Behind measure it is as fine as can be.
+row() { # FIRST SECOND MORE: light by both is drop, all else is split
+    printf 'oracle row { start %s node a = weigh(share = %s) { light -> b; heavy -> split; }\n' "$3" "$1"
+    printf 'node b = weigh(share = %s) { light -> drop; heavy -> split; } }\n' "$2"
+}
+row 0.25 0.5 'a;' >first.dag
+row 0.5 0.25 'a;' >second.dag
+check "diff: readers of a term with levels, in another order" status 1 "$dagc" diff --catalog "$catalog" first.dag second.dag
+check "diff: how they differ" says '^  weigh(most = 1, share = 0.5): heavy' "$dagc" diff --catalog "$catalog" first.dag second.dag
+row 0.25 0.5 'm; node m = measure() { done -> a; }' >first.dag
+row 0.5 0.25 'm; node m = measure() { done -> a; }' >second.dag
+check "diff: readers of a term at its last level" status 0 "$dagc" diff --catalog "$catalog" first.dag second.dag
+cat >once.dag <<'END'
+oracle row { start a; node a = weigh(share = 0.5) { light -> b; heavy -> split; } node b = look() { left -> drop; otherwise -> split; } }
+END
+cat >again.dag <<'END'
+oracle row { start a; node a = weigh(share = 0.5) { light -> b; heavy -> split; }
+  node b = look() { left -> c; otherwise -> split; } node c = weigh(share = 0.5) { light -> drop; heavy -> split; } }
+END
+check "diff: a reader finds what it left" status 0 "$dagc" diff --catalog "$catalog" once.dag again.dag
+cat >wrote.dag <<'END'
+oracle row { start a; node a = tally(upto = 2) { otherwise -> b; } node b = tally(upto = 9) { few -> drop; otherwise -> split; } }
+END
+sed 's/upto = 2/upto = 3/' wrote.dag >other.dag
+check "diff: what a tool writes is its own" status 1 "$dagc" diff --catalog "$catalog" wrote.dag other.dag
 cat >computed.dag <<'END'
 extern glow(size >= rough) : flux in [0, inf] "it shines";
 oracle computed {
