@@ -85,7 +85,8 @@ static int same_value(const struct dag *a, int i, const struct dag *b, int j)
     case EXPRESSION_PARAMETER:
         return strcmp(a->parameters[x->parameter].name, b->parameters[y->parameter].name) == 0;
     case EXPRESSION_FACT:
-        return strcmp(a->facts[x->index].name, b->facts[y->index].name) == 0;
+        return strcmp(a->facts[x->index].name, b->facts[y->index].name) == 0
+               && strcmp(a->facts[x->index].c, b->facts[y->index].c) == 0;
     case EXPRESSION_TERM:
         return x->index == y->index && x->level == y->level;
     case EXPRESSION_EXTERN:
@@ -503,6 +504,21 @@ static int compare_parameters(const struct walk *walk)
     return different;
 }
 
+/* Facts that both call by one name but that are not the same; the questions look alike. */
+static void compare_facts(const struct walk *walk)
+{
+    const struct side *a = &walk->side[0], *b = &walk->side[1];
+    for (int i = 0; i < a->dag->fact_count; i++) {
+        const struct fact *fact = &a->dag->facts[i];
+        int other = dag_find(&b->dag->fact_names, fact->name);
+        if (other < 0 || strcmp(fact->c, b->dag->facts[other].c) == 0
+            || !dag_reads_fact(a->dag, a->oracle, i) || !dag_reads_fact(b->dag, b->oracle, other))
+            continue;
+        fprintf(walk->out, "- fact %s = \"%s\"\n", fact->name, fact->c);
+        fprintf(walk->out, "+ fact %s = \"%s\"\n", fact->name, b->dag->facts[other].c);
+    }
+}
+
 struct request {
     struct side side[SIDES];
     FILE *out;
@@ -554,6 +570,7 @@ static void compare(struct dag *other, void *context)
     memcpy(walk->side, request->side, sizeof walk->side);
     fprintf(walk->out, "oracle %s\n", walk->side[0].oracle->name);
     request->result |= compare_parameters(walk);
+    compare_facts(walk);
     begin(walk);
     if (walk->group_count > SHOWN)
         fprintf(walk->out, "\n%d ways to decide differ%s; the first %d are shown\n",
@@ -576,26 +593,93 @@ static void compare_protected(struct dag *dag, void *context)
     }
 }
 
-/* Do both files know the same tools, terms and decisions? They may declare some themselves. */
-static int same_catalog(const struct dag *a, const struct dag *b)
+/* ---- the catalogs */
+
+static int same_needs(const struct dag *a, struct span x, const struct dag *b, struct span y)
+{
+    int same = x.count == y.count;
+    for (int i = 0; same && i < x.count; i++) {
+        const struct need *p = &a->needs[x.first + i], *q = &b->needs[y.first + i];
+        same = p->term == q->term && p->level == q->level;
+    }
+    return same;
+}
+
+static int same_type(const struct type *x, const struct type *y)
+{
+    return x->base == y->base && x->length == y->length && x->any_unit == y->any_unit
+           && dag_same_unit(&x->unit, &y->unit);
+}
+
+/* (Of documentation, ranges and defaults nothing depends on which question is asked.) */
+static int same_tool(const struct dag *a, const struct tool *x, const struct dag *b,
+                     const struct tool *y)
+{
+    int same = x->kind == y->kind && x->answers.count == y->answers.count
+               && x->parameters.count == y->parameters.count && strcmp(x->header, y->header) == 0
+               && same_needs(a, x->reads, b, y->reads) && same_needs(a, x->writes, b, y->writes);
+    for (int i = 0; same && i < x->answers.count; i++) {
+        const struct answer *p = &a->answers[x->answers.first + i],
+                            *q = &b->answers[y->answers.first + i];
+        same = strcmp(p->name, q->name) == 0 && p->refuses == q->refuses;
+    }
+    for (int i = 0; same && i < x->parameters.count; i++) {
+        const struct parameter *p = &a->parameters[x->parameters.first + i],
+                               *q = &b->parameters[y->parameters.first + i];
+        same = strcmp(p->name, q->name) == 0 && same_type(&a->types[p->type], &b->types[q->type]);
+    }
+    return same;
+}
+
+static int same_term(const struct dag *a, const struct term *x, const struct dag *b,
+                     const struct term *y)
+{
+    int same = x->levels.count == y->levels.count && strcmp(x->header, y->header) == 0
+               && same_type(&a->types[x->type], &b->types[y->type]);
+    for (int i = 0; same && i < x->levels.count; i++)
+        same =
+            strcmp(a->levels[x->levels.first + i].name, b->levels[y->levels.first + i].name) == 0;
+    return same;
+}
+
+/* 0, and it is said: they know tools, terms or decisions of other names. */
+static int same_names(const struct dag *a, const struct dag *b)
 {
     int same = a->tool_count == b->tool_count && a->term_count == b->term_count
                && a->decision_count == b->decision_count;
-    for (int i = 0; same && i < a->tool_count; i++) {
-        const struct tool *x = &a->tools[i], *y = &b->tools[i];
-        same = strcmp(x->name, y->name) == 0 && x->answers.count == y->answers.count
-               && x->parameters.count == y->parameters.count && x->reads.count == y->reads.count;
-        for (int k = 0; same && k < x->answers.count; k++)
-            same =
-                strcmp(a->answers[x->answers.first + k].name, b->answers[y->answers.first + k].name)
-                == 0;
-    }
+    for (int i = 0; same && i < a->tool_count; i++)
+        same = strcmp(a->tools[i].name, b->tools[i].name) == 0;
     for (int i = 0; same && i < a->term_count; i++)
-        same = strcmp(a->terms[i].name, b->terms[i].name) == 0
-               && a->terms[i].levels.count == b->terms[i].levels.count;
+        same = strcmp(a->terms[i].name, b->terms[i].name) == 0;
     for (int i = 0; same && i < a->decision_count; i++)
         same = strcmp(a->decisions[i].name, b->decisions[i].name) == 0;
+    if (!same)
+        fprintf(stderr, "dagc: error: the two files declare different tools, terms or decisions\n");
     return same;
+}
+
+/* 0, and it is said: what both call by one name is not the same. They may declare some themselves.
+ */
+static int same_catalog(const struct dag *a, const struct dag *b)
+{
+    const char *what = NULL, *name = "";
+    if (!same_names(a, b))
+        return 0;
+    if (a->runtime_abi != b->runtime_abi || strcmp(a->runtime_header, b->runtime_header) != 0)
+        what = "runtime";
+    for (int i = 0; what == NULL && i < a->term_count; i++)
+        if (!same_term(a, &a->terms[i], b, &b->terms[i])) {
+            what = "term ";
+            name = a->terms[i].name;
+        }
+    for (int i = 0; what == NULL && i < a->tool_count; i++)
+        if (!same_tool(a, &a->tools[i], b, &b->tools[i])) {
+            what = "tool ";
+            name = a->tools[i].name;
+        }
+    if (what != NULL)
+        fprintf(stderr, "dagc: error: the two files declare the %s%s differently\n", what, name);
+    return what == NULL;
 }
 
 /* Oracles of one name are compared; two files of one oracle each whatever the names. */
@@ -626,10 +710,8 @@ int dag_diff(const char *a, const char *b, const struct dag_options *options, FI
     request.side[1].dag = dag_load_with(b, &loaded, stderr);
     if (request.side[0].dag == NULL || request.side[1].dag == NULL)
         request.result = 2;
-    else if (!same_catalog(request.side[0].dag, request.side[1].dag)) {
-        fprintf(stderr, "dagc: error: the two files declare different tools, terms or decisions\n");
+    else if (!same_catalog(request.side[0].dag, request.side[1].dag))
         request.result = 2;
-    }
     for (int i = 0; request.result < 2 && i < request.side[0].dag->oracle_count; i++)
         if (pair_up(&request, i)
             && dag_protect(request.side[0].dag, compare_protected, &request) != 0) {

@@ -127,6 +127,31 @@ done
 check "diff: an expression as a witness" says 'weigh(most = max(lamp, extern glow) \* 2, share = min(1, abs(size.fine))): light' \
     "$dagc" diff --catalog "$catalog" computed.dag changed.dag
 { echo 'tool more() question answers (yes, no) "More?";'; cat computed.dag; } >more.dag
+while IFS='|' read -r change what; do # both say which catalog they are for
+    sed "$change" "$catalog" >other_catalog.dag
+    { echo 'catalog "one.dag";'; cat small.dag; } >left.dag
+    { echo 'catalog "other_catalog.dag";'; cat small.dag; } >right.dag
+    cp "$catalog" one.dag
+    check "diff: $change" status 2 "$dagc" diff left.dag right.dag
+    check "diff: $what" says "the two files declare the $what differently" "$dagc" diff left.dag right.dag
+done <<'END'
+s/abi 7/abi 8/|runtime
+s/"discussion.h"/"discussion2.h"/|runtime
+s/many -> split) "How/many -> split) header "tools\/two.h" "How/|tool tally
+s/upto : count/most : count/|tool tally
+s/scale : ratio/scale : flux/|tool tally
+s/reads (times) writes (times)/writes (times)/|tool tally
+s/writes (size >= fine, where)/writes (size >= rough, where)/|tool measure
+s/rough < fine/rough < good < fine/|term size
+s/term times : count/term times : ratio/|term times
+END
+sed 's/"Is it light?"/"Light?"/; s/heavy approximate/heavy precise/' "$catalog" >other_catalog.dag
+check "diff: another documentation" status 0 "$dagc" diff left.dag right.dag
+sed 's/facts\[3\]/facts[4]/' "$catalog" >other_catalog.dag
+check "diff: a fact that is not read is another" status 0 "$dagc" diff left.dag right.dag
+sed -i 's/most = most/most = lamp/' left.dag right.dag
+check "diff: a fact that is read is another" status 1 "$dagc" diff left.dag right.dag
+check "diff: which" says '^+ fact lamp = "d->record->facts\[4\]"' "$dagc" diff left.dag right.dag
 check "diff: other tools" status 2 "$dagc" diff --catalog "$catalog" computed.dag more.dag
 
 # ---- standalone, and the program that ships it
