@@ -11,6 +11,7 @@
  * the same subgraph with the same terms nothing can differ, so the work is polynomial in all but
  * the answers that stay relevant; it is capped, and a walk that was cut short says so.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <string.h>
 
 #include "analyse/analyse.h"
@@ -74,6 +75,12 @@ static const struct node *node_at(const struct side *side, int place)
 
 /* ---- questions */
 
+/* -0 is less than 0. */
+static int same_number(double x, double y)
+{
+    return x == y && !signbit(x) == !signbit(y);
+}
+
 static int same_value(const struct dag *a, int i, const struct dag *b, int j)
 {
     const struct expression *x = &a->expressions[i], *y = &b->expressions[j];
@@ -81,7 +88,7 @@ static int same_value(const struct dag *a, int i, const struct dag *b, int j)
         return 0;
     switch (x->kind) {
     case EXPRESSION_NUMBER:
-        return x->number == y->number;
+        return same_number(x->number, y->number);
     case EXPRESSION_PARAMETER:
         return strcmp(a->parameters[x->parameter].name, b->parameters[y->parameter].name) == 0;
     case EXPRESSION_FACT:
@@ -492,7 +499,7 @@ static int compare_parameters(const struct walk *walk)
             }
             if (b == NULL)
                 fprintf(walk->out, "%c parameter %s\n", s == 0 ? '-' : '+', a->name);
-            else if (s == 0 && a->value != b->value) {
+            else if (s == 0 && !same_number(a->value, b->value)) {
                 char x[32];
                 fprintf(walk->out, "- parameter %s = %s\n", a->name, dag_number(a->value, x));
                 char y[32];

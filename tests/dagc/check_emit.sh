@@ -110,6 +110,11 @@ oracle row { start a; node a = tally(upto = 2) { otherwise -> b; } node b = tall
 END
 sed 's/upto = 2/upto = 3/' wrote.dag >other.dag
 check "diff: what a tool writes is its own" status 1 "$dagc" diff --catalog "$catalog" wrote.dag other.dag
+for place in 's/share = 0.5/share = ZERO/' 's/flux = 1 /flux = ZERO /'; do
+    sed "$place; s/ZERO/0/" small.dag >zero.dag
+    sed "$place; s/ZERO/-0/" small.dag >below.dag
+    check "diff: -0 is less than 0: $place" status 1 "$dagc" diff --catalog "$catalog" zero.dag below.dag
+done
 cat >computed.dag <<'END'
 extern glow(size >= rough) : flux in [0, inf] "it shines";
 oracle computed {
