@@ -128,16 +128,22 @@ struct dag *dag_new(void)
     return dag;
 }
 
-void dag_free(struct dag *dag)
+void dag_arena_free(struct arena *arena)
 {
-    if (dag == NULL)
-        return;
-    struct block *block = dag->arena.blocks;
+    struct block *block = arena->blocks;
     while (block != NULL) {
         struct block *next = block->next;
         free(block);
         block = next;
     }
+    arena->blocks = NULL;
+}
+
+void dag_free(struct dag *dag)
+{
+    if (dag == NULL)
+        return;
+    dag_arena_free(&dag->arena);
     free(dag->opened);
     free(dag->reading);
     free(dag);

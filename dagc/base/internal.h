@@ -44,6 +44,7 @@ int dag_protect(struct dag *dag, void (*body)(struct dag *dag, void *context), v
 struct dag *dag_new(void);                         /* NULL: out of memory */
 void *dag_alloc(struct arena *arena, size_t size); /* zeroed, aligned for anything */
 void *dag_grow(struct arena *arena, void *items, int count, size_t size);
+void dag_arena_free(struct arena *arena);
 NO_RETURN void dag_out_of_memory(struct arena *arena); /* back to dag_protect */
 const char *dag_copy(struct arena *arena, const char *text, size_t length);
 const char *dag_format(struct arena *arena, const char *format, ...) PRINTF_LIKE(2, 3);

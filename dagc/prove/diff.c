@@ -17,7 +17,7 @@
 #include "analyse/analyse.h"
 #include "prove/diff.h"
 
-enum { STATES_MAX = 1000000, TABLE_SIZE = 1 << 21, SHOWN = 20, GROUPS_MAX = 1000, SIDES = 2 };
+enum { STATES_MAX = 1000000, TABLE_SIZE = 1 << 10, SHOWN = 20, GROUPS_MAX = 1000, SIDES = 2 };
 
 /* A tool with its arguments: equal numbers, equal questions but for the terms. */
 struct question {
@@ -31,10 +31,21 @@ struct known {
     uint64_t level;   /* at least */
 };
 
-/* One that has been asked: a hash of what it reads as it found that, and as reading left it. */
+/* One that has been asked: a hash of what it reads as it found that, and as reading left it; and
+ * where that was, to try its next answer from. */
 struct asked {
-    int base, answer;
+    int base, answer, answers;
     uint64_t found, left;
+    int before; /* in the trail: the last of the same base; -1 */
+    struct target at[SIDES];
+    int last[SIDES], change_count, idle_count;
+    int next, previous; /* in the trail: of those that may be asked again; -1 */
+};
+
+/* What a side knew of a term. */
+struct change {
+    int side, term;
+    struct known known;
 };
 
 struct group { /* ways to decide that differ, by what was asked last on either side */
@@ -54,14 +65,20 @@ struct side {
 };
 
 struct walk {
-    struct arena *arena; /* of the first dag */
+    struct arena *arena;
     struct side side[SIDES];
     struct question *bases;
     int base_count, bytes;
-    struct asked *trail;
+    struct asked *trail; /* a way may be as long as the graphs: nothing recurses on it */
     int trail_count;
-    struct known *kept; /* by item of the trail, of either side by term: what it has to put back */
+    int *newest;            /* by base: in the trail, from 1; 0: it has not been asked */
+    struct change *changes; /* of this way, to be undone */
+    int change_count;
+    int first, final; /* of the trail, those that may be asked again */
+    int *idle;        /* and those that were found not to: neither are they further on */
+    int idle_count;
     uint64_t *seen;
+    size_t seen_size; /* a power of two */
     int states, cut;
     struct group groups[GROUPS_MAX];
     int group_count;
@@ -183,12 +200,12 @@ static uint64_t changer(const struct asked *asked, int how)
     return hash == 0 ? 1 : hash;
 }
 
-/* Bases are looked for among those of the same tool: chains, newest first. */
+/* Bases are looked for among those of the same text: chains, newest first. */
 static void find_bases(struct walk *walk)
 {
-    int tools = walk->side[0].dag->tool_count;
     int most = walk->side[0].oracle->order.count + walk->side[1].oracle->order.count;
-    int *last = dag_alloc(walk->arena, (size_t)tools * sizeof(int) + 1);
+    struct table texts = {NULL, NULL, 0, 0};
+    int *last = dag_alloc(walk->arena, (size_t)most * sizeof(int));
     int *before = dag_alloc(walk->arena, (size_t)most * sizeof(int));
     walk->bases = dag_alloc(walk->arena, (size_t)most * sizeof *walk->bases);
     for (int s = 0; s < SIDES; s++) {
@@ -196,7 +213,10 @@ static void find_bases(struct walk *walk)
         side->base = dag_alloc(walk->arena, (size_t)side->oracle->order.count * sizeof(int));
         for (int i = 0; i < side->oracle->order.count; i++) {
             const struct node *node = node_at(side, i);
-            int found = last[node->tool] - 1;
+            int text = texts.count;
+            int known = dag_put(walk->arena, &texts, dag_call_text(side->dag, node), text);
+            text = known < 0 ? text : known;
+            int found = last[text] - 1;
             for (; found >= 0; found = before[found] - 1) {
                 const struct side *other = &walk->side[walk->bases[found].side];
                 if (same_base(side, node, other, node_at(other, walk->bases[found].node)))
@@ -206,8 +226,8 @@ static void find_bases(struct walk *walk)
                 found = walk->base_count++;
                 walk->bases[found].side = s;
                 walk->bases[found].node = i;
-                before[found] = last[node->tool];
-                last[node->tool] = found + 1;
+                before[found] = last[text];
+                last[text] = found + 1;
             }
             side->base[i] = found;
         }
@@ -303,12 +323,85 @@ static const struct asked *find_asked(const struct walk *walk, const struct side
 {
     int place = place_of(side);
     uint64_t reads = hash_reads(side, node_at(side, place), 0);
-    for (int i = 0; i < walk->trail_count; i++) {
-        const struct asked *asked = &walk->trail[i];
-        if (asked->base == side->base[place] && (asked->found == reads || asked->left == reads))
-            return asked;
-    }
+    for (int i = walk->newest[side->base[place]] - 1; i >= 0; i = walk->trail[i].before)
+        if (walk->trail[i].found == reads || walk->trail[i].left == reads)
+            return &walk->trail[i];
     return NULL;
+}
+
+/* ---- the trail
+ *
+ * Items are put at its end and taken from there. Those that neither side may come to ask again
+ * leave the list of the others on the way, and come back on the way back, the last one first. */
+
+static void link_asked(struct walk *walk, int item)
+{
+    const struct asked *asked = &walk->trail[item];
+    *(asked->previous < 0 ? &walk->first : &walk->trail[asked->previous].next) = item;
+    *(asked->next < 0 ? &walk->final : &walk->trail[asked->next].previous) = item;
+}
+
+static void unlink_asked(struct walk *walk, int item)
+{
+    const struct asked *asked = &walk->trail[item];
+    *(asked->previous < 0 ? &walk->first : &walk->trail[asked->previous].next) = asked->next;
+    *(asked->next < 0 ? &walk->final : &walk->trail[asked->next].previous) = asked->previous;
+}
+
+static void unlink_idle(struct walk *walk)
+{
+    for (int i = walk->first; i >= 0; i = walk->trail[i].next)
+        if (!may_ask(walk, &walk->side[0], walk->trail[i].base)
+            && !may_ask(walk, &walk->side[1], walk->trail[i].base)) {
+            unlink_asked(walk, i);
+            walk->idle[walk->idle_count++] = i;
+        }
+}
+
+/* As it was when the item was asked. */
+static void put_back(struct walk *walk, const struct asked *asked)
+{
+    while (walk->change_count > asked->change_count) {
+        const struct change *change = &walk->changes[--walk->change_count];
+        walk->side[change->side].known[change->term] = change->known;
+    }
+    while (walk->idle_count > asked->idle_count)
+        link_asked(walk, walk->idle[--walk->idle_count]);
+    for (int s = 0; s < SIDES; s++) {
+        walk->side[s].at = asked->at[s];
+        walk->side[s].last = asked->last[s];
+    }
+}
+
+/* The question that the side is at, without an answer yet. */
+static void put_asked(struct walk *walk, const struct side *side)
+{
+    const int place = place_of(side), item = walk->trail_count++;
+    const struct node *node = node_at(side, place);
+    struct asked *asked = &walk->trail[item];
+    asked->base = side->base[place];
+    asked->answer = -1;
+    asked->answers = node->arcs.count;
+    asked->found = hash_reads(side, node, 0);
+    asked->left = hash_reads(side, node, changer(asked, READS));
+    asked->before = walk->newest[asked->base] - 1;
+    asked->change_count = walk->change_count;
+    asked->idle_count = walk->idle_count;
+    asked->next = -1;
+    asked->previous = walk->final;
+    for (int s = 0; s < SIDES; s++) {
+        asked->at[s] = walk->side[s].at;
+        asked->last[s] = walk->side[s].last;
+    }
+    walk->newest[asked->base] = item + 1;
+    link_asked(walk, item);
+}
+
+static void take_asked(struct walk *walk)
+{
+    const struct asked *asked = &walk->trail[--walk->trail_count];
+    walk->newest[asked->base] = asked->before + 1;
+    unlink_asked(walk, walk->trail_count);
 }
 
 /* ---- states */
@@ -325,11 +418,8 @@ static uint64_t hash_state(const struct walk *walk)
             if (may_ask(walk, side, walk->base_count + t))
                 hash = mix(mix(hash, side->known[t].history), side->known[t].level);
     }
-    for (int i = 0; i < walk->trail_count; i++) {
+    for (int i = walk->first; i >= 0; i = walk->trail[i].next) {
         const struct asked *asked = &walk->trail[i];
-        if (!may_ask(walk, &walk->side[0], asked->base)
-            && !may_ask(walk, &walk->side[1], asked->base))
-            continue;
         uint64_t one = mix(mix(2, (uint64_t)asked->base), (uint64_t)asked->answer);
         answers += mix(one, asked->found); /* in whatever order they came */
     }
@@ -337,13 +427,32 @@ static uint64_t hash_state(const struct walk *walk)
     return hash == 0 ? 1 : hash;
 }
 
+static size_t slot_of(const uint64_t *seen, size_t size, uint64_t hash)
+{
+    size_t slot = hash & (size - 1);
+    while (seen[slot] != 0 && seen[slot] != hash)
+        slot = (slot + 1) & (size - 1);
+    return slot;
+}
+
+static void enlarge_seen(struct walk *walk)
+{
+    const size_t size = walk->seen_size == 0 ? TABLE_SIZE : 2 * walk->seen_size;
+    uint64_t *seen = dag_alloc(walk->arena, size * sizeof *seen);
+    for (size_t i = 0; i < walk->seen_size; i++)
+        if (walk->seen[i] != 0)
+            seen[slot_of(seen, size, walk->seen[i])] = walk->seen[i];
+    walk->seen = seen;
+    walk->seen_size = size;
+}
+
 /* Has the state been walked? Else it has now. */
 static int seen_before(struct walk *walk)
 {
+    if (2 * (size_t)walk->states >= walk->seen_size)
+        enlarge_seen(walk);
     uint64_t hash = hash_state(walk);
-    size_t slot = hash & (TABLE_SIZE - 1);
-    while (walk->seen[slot] != 0 && walk->seen[slot] != hash)
-        slot = (slot + 1) & (TABLE_SIZE - 1);
+    size_t slot = slot_of(walk->seen, walk->seen_size, hash);
     if (walk->seen[slot] == hash)
         return 1;
     if (walk->states >= STATES_MAX) {
@@ -400,10 +509,20 @@ static void report(struct walk *walk)
 
 /* ---- the walk */
 
+static void set_known(struct walk *walk, int s, int term, struct known known)
+{
+    struct known *at = &walk->side[s].known[term];
+    if (at->history == known.history && at->last == known.last && at->level == known.level)
+        return;
+    walk->changes[walk->change_count++] = (struct change){s, term, *at};
+    *at = known;
+}
+
 /* One side takes the answer's arc; its arguments and its tool have then read their terms, and the
  * tool has written what it declares. */
-static void follow_arc(struct side *side, const struct asked *asked)
+static void follow_arc(struct walk *walk, int s, const struct asked *asked)
 {
+    struct side *side = &walk->side[s];
     const struct dag *dag = side->dag;
     const struct node *node = &dag->nodes[side->at.index];
     const struct tool *tool = &dag->tools[node->tool];
@@ -411,76 +530,54 @@ static void follow_arc(struct side *side, const struct asked *asked)
     for (int k = 0; k < 2; k++)
         for (int i = needs[k].first; i < needs[k].first + needs[k].count; i++) {
             int term = dag->needs[i].term;
-            side->known[term] = known_at(side, node, term, changer(asked, READS));
+            set_known(walk, s, term, known_at(side, node, term, changer(asked, READS)));
         }
     int refuses = dag->answers[tool->answers.first + asked->answer].refuses;
     for (int i = 0; i < tool->writes.count && !refuses; i++) {
         const struct need *need = &dag->needs[tool->writes.first + i];
-        struct known *known = &side->known[need->term];
-        change(known, changer(asked, WRITES));
-        if (known->level < (uint64_t)need->level)
-            known->level = (uint64_t)need->level;
+        struct known known = side->known[need->term];
+        change(&known, changer(asked, WRITES));
+        if (known.level < (uint64_t)need->level)
+            known.level = (uint64_t)need->level;
+        set_known(walk, s, need->term, known);
     }
     side->last = node->order;
     side->at = dag->arcs[node->arcs.first + asked->answer].target;
 }
 
-struct saved {
-    struct target at[SIDES];
-    int last[SIDES];
-};
-
-static void walk_on(struct walk *walk);
-
-/* Tries every answer of the question that side s is at. */
-static void branch(struct walk *walk, int s)
-{
-    struct side *side = &walk->side[s];
-    int place = place_of(side);
-    const struct node *node = node_at(side, place);
-    const size_t terms = (size_t)side->dag->term_count;
-    struct known *kept = walk->kept + (size_t)walk->trail_count * SIDES * terms;
-    struct asked *asked = &walk->trail[walk->trail_count];
-    asked->base = side->base[place];
-    asked->found = hash_reads(side, node, 0);
-    asked->left = hash_reads(side, node, changer(asked, READS));
-    struct saved saved;
-    for (int i = 0; i < SIDES; i++) {
-        memcpy(kept + (size_t)i * terms, walk->side[i].known, terms * sizeof *kept);
-        saved.at[i] = walk->side[i].at;
-        saved.last[i] = walk->side[i].last;
-    }
-    walk->trail_count++;
-    for (int answer = 0; answer < node->arcs.count && !walk->cut; answer++) {
-        asked->answer = answer;
-        walk_on(walk);
-        for (int i = 0; i < SIDES; i++) {
-            memcpy(walk->side[i].known, kept + (size_t)i * terms, terms * sizeof *kept);
-            walk->side[i].at = saved.at[i];
-            walk->side[i].last = saved.last[i];
-        }
-    }
-    walk->trail_count--;
-}
-
-/* Follows what is known on both sides, then asks the first thing that is not. */
-static void walk_on(struct walk *walk)
+/* Follows what is known on both sides, then asks the first thing that is not, if there is one. */
+static void go_on(struct walk *walk)
 {
     int next = -1;
     for (int s = 0; s < SIDES; s++) {
         struct side *side = &walk->side[s];
         const struct asked *asked;
         while (side->at.kind == TARGET_NODE && (asked = find_asked(walk, side)) != NULL)
-            follow_arc(side, asked);
+            follow_arc(walk, s, asked);
         if (side->at.kind == TARGET_NODE && next < 0)
             next = s;
     }
+    unlink_idle(walk);
     if (must_agree(walk) || seen_before(walk))
         return;
     if (next >= 0)
-        branch(walk, next);
+        put_asked(walk, &walk->side[next]);
     else if (walk->side[0].at.index != walk->side[1].at.index)
         report(walk);
+}
+
+/* Tries every answer of every question. */
+static void walk_all(struct walk *walk)
+{
+    go_on(walk);
+    while (walk->trail_count > 0) {
+        struct asked *asked = &walk->trail[walk->trail_count - 1];
+        put_back(walk, asked);
+        if (walk->cut || ++asked->answer == asked->answers)
+            take_asked(walk);
+        else
+            go_on(walk);
+    }
 }
 
 /* Parameters that one of them lacks, or whose defaults differ. */
@@ -528,6 +625,7 @@ static void compare_facts(const struct walk *walk)
 
 struct request {
     struct side side[SIDES];
+    struct arena arena; /* of one walk */
     FILE *out;
     int result;
 };
@@ -540,17 +638,24 @@ static void begin(struct walk *walk)
     find_bases(walk);
     find_reach(walk);
     find_subgraphs(walk);
-    size_t most = 1;
+    size_t most = 1, changes = 1; /* a way comes to each node once */
     for (int s = 0; s < SIDES; s++) {
         struct side *side = &walk->side[s];
         side->known = dag_alloc(arena, terms * sizeof *side->known + 1);
         side->at = side->oracle->start;
         most += (size_t)side->oracle->order.count;
+        for (int i = 0; i < side->oracle->order.count; i++) {
+            const struct node *node = node_at(side, i);
+            const struct tool *tool = &side->dag->tools[node->tool];
+            changes += (size_t)(node->reads.count + tool->reads.count + tool->writes.count);
+        }
     }
-    walk->kept = dag_alloc(arena, most * SIDES * terms * sizeof *walk->kept + 1);
     walk->trail = dag_alloc(arena, most * sizeof *walk->trail);
-    walk->seen = dag_alloc(arena, TABLE_SIZE * sizeof *walk->seen);
-    walk_on(walk);
+    walk->newest = dag_alloc(arena, most * sizeof *walk->newest);
+    walk->changes = dag_alloc(arena, changes * sizeof *walk->changes);
+    walk->idle = dag_alloc(arena, most * sizeof *walk->idle);
+    walk->first = walk->final = -1;
+    walk_all(walk);
 }
 
 int dag_diff_graphs(struct dag *dag, const struct oracle_graph *a, const struct oracle_graph *b)
@@ -571,8 +676,9 @@ static void compare(struct dag *other, void *context)
     struct request *request = context;
     struct dag *dag = request->side[0].dag;
     (void)other;
-    struct walk *walk = dag_alloc(&dag->arena, sizeof *walk);
-    walk->arena = &dag->arena;
+    request->arena.protector = dag->arena.protector;
+    struct walk *walk = dag_alloc(&request->arena, sizeof *walk);
+    walk->arena = &request->arena;
     walk->out = request->out;
     memcpy(walk->side, request->side, sizeof walk->side);
     fprintf(walk->out, "oracle %s\n", walk->side[0].oracle->name);
@@ -719,12 +825,14 @@ int dag_diff(const char *a, const char *b, const struct dag_options *options, FI
         request.result = 2;
     else if (!same_catalog(request.side[0].dag, request.side[1].dag))
         request.result = 2;
-    for (int i = 0; request.result < 2 && i < request.side[0].dag->oracle_count; i++)
+    for (int i = 0; request.result < 2 && i < request.side[0].dag->oracle_count; i++) {
         if (pair_up(&request, i)
             && dag_protect(request.side[0].dag, compare_protected, &request) != 0) {
             fprintf(stderr, "dagc: error: out of memory\n");
             request.result = 2;
         }
+        dag_arena_free(&request.arena);
+    }
     for (int i = 0; request.result < 2 && i < request.side[1].dag->oracle_count; i++)
         if (!(request.side[0].dag->oracle_count == 1 && request.side[1].dag->oracle_count == 1)
             && dag_oracle(request.side[0].dag, request.side[1].dag->oracles[i].name) < 0) {

@@ -159,6 +159,20 @@ check "diff: a fact that is read is another" status 1 "$dagc" diff left.dag righ
 check "diff: which" says '^+ fact lamp = "d->record->facts\[4\]"' "$dagc" diff left.dag right.dag
 check "diff: other tools" status 2 "$dagc" diff --catalog "$catalog" computed.dag more.dag
 
+# Graphs may be as deep as dagc takes them, and many.
+chain() { # LAST: 10,000 questions in a row
+    awk -v last="$1" 'BEGIN { print "oracle deep { start n0;"
+        for (i = 0; i < 9999; i++) print "node n" i " = weigh(most = " i ", share = 0.5) { light -> n" i + 1 "; heavy -> drop; }"
+        print "node n9999 = look() { left -> " last "; otherwise -> drop; } }" }'
+}
+chain split >deep.dag
+chain drop >shallow.dag
+check "diff: a chain of 10,000" status 1 sh -c "ulimit -s 1024; '$dagc' diff --catalog '$catalog' deep.dag shallow.dag >said"
+check "diff: and its one way" grep -q '^1 ways to decide differ' said
+awk 'BEGIN { for (i = 0; i < 200; i++) print "oracle o" i " { start a; node a = look() { left -> split; otherwise -> drop; } }" }' >many.dag
+sed 's/left -> split/right -> split/' many.dag >others.dag
+[ -n "${SANITIZE-}" ] || check "diff: 200 oracles in 1 GB" status 1 sh -c "ulimit -v 1000000; '$dagc' diff --catalog '$catalog' many.dag others.dag"
+
 # ---- standalone, and the program that ships it
 embed=$top/examples/embed
 mkdir made
