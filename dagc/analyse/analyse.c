@@ -153,32 +153,36 @@ const char *dag_target_name(const struct dag *dag, const struct target *target)
                                        : dag->decisions[target->index].name;
 }
 
+static const char *value_text(struct dag *dag, int expression, const char *before_extern);
+
 /* An operand of + - * / and of the minus sign. */
-static const char *operand_text(struct dag *dag, int expression)
+static const char *operand_text(struct dag *dag, int expression, const char *before_extern)
 {
     enum expression_kind kind = dag->expressions[expression].kind;
-    const char *text = dag_value_text(dag, expression);
+    const char *text = value_text(dag, expression, before_extern);
     int infix = kind == EXPRESSION_NEGATE || (kind >= EXPRESSION_ADD && kind <= EXPRESSION_DIVIDE);
     return infix ? dag_format(&dag->arena, "(%s)", text) : text;
 }
 
-static const char *operation_text(struct dag *dag, const struct expression *e)
+static const char *operation_text(struct dag *dag, const struct expression *e,
+                                  const char *before_extern)
 {
     static const char *const signs[] = {"+", "-", "*", "/"}; /* from EXPRESSION_ADD on */
     if (e->kind == EXPRESSION_NEGATE)
-        return dag_format(&dag->arena, "-%s", operand_text(dag, e->left));
+        return dag_format(&dag->arena, "-%s", operand_text(dag, e->left, before_extern));
     if (e->kind == EXPRESSION_SQRT || e->kind == EXPRESSION_ABS)
         return dag_format(&dag->arena, "%s(%s)", e->kind == EXPRESSION_SQRT ? "sqrt" : "abs",
-                          dag_value_text(dag, e->left));
+                          value_text(dag, e->left, before_extern));
     if (e->kind == EXPRESSION_MIN || e->kind == EXPRESSION_MAX)
         return dag_format(&dag->arena, "%s(%s, %s)", e->kind == EXPRESSION_MIN ? "min" : "max",
-                          dag_value_text(dag, e->left), dag_value_text(dag, e->right));
-    const char *left = operand_text(dag, e->left);
+                          value_text(dag, e->left, before_extern),
+                          value_text(dag, e->right, before_extern));
+    const char *left = operand_text(dag, e->left, before_extern);
     return dag_format(&dag->arena, "%s %s %s", left, signs[e->kind - EXPRESSION_ADD],
-                      operand_text(dag, e->right));
+                      operand_text(dag, e->right, before_extern));
 }
 
-const char *dag_value_text(struct dag *dag, int expression)
+static const char *value_text(struct dag *dag, int expression, const char *before_extern)
 {
     const struct expression *e = &dag->expressions[expression];
     char digits[32];
@@ -199,7 +203,7 @@ const char *dag_value_text(struct dag *dag, int expression)
                                 dag->levels[term->levels.first + e->level - 1].name);
     }
     case EXPRESSION_EXTERN:
-        return dag_format(&dag->arena, "extern %s", e->name);
+        return dag_format(&dag->arena, "%s%s", before_extern, e->name);
     case EXPRESSION_NEGATE:
     case EXPRESSION_SQRT:
     case EXPRESSION_ABS:
@@ -211,19 +215,34 @@ const char *dag_value_text(struct dag *dag, int expression)
     case EXPRESSION_MAX:
         break;
     }
-    return operation_text(dag, e);
+    return operation_text(dag, e, before_extern);
 }
 
-const char *dag_call_text(struct dag *dag, const struct node *node)
+const char *dag_value_text(struct dag *dag, int expression)
+{
+    return value_text(dag, expression, "extern ");
+}
+
+static const char *call_text(struct dag *dag, const struct node *node, const char *before_extern)
 {
     const char *text = "";
     for (int i = 0; i < node->arguments.count; i++) {
         const struct argument *argument = &dag->arguments[node->arguments.first + i];
         text = dag_format(&dag->arena, "%s%s%s = %s", text, i > 0 ? ", " : "",
                           dag->parameters[argument->parameter].name,
-                          dag_value_text(dag, argument->expression));
+                          value_text(dag, argument->expression, before_extern));
     }
     return dag_format(&dag->arena, "%s(%s)", dag->tools[node->tool].name, text);
+}
+
+const char *dag_call_text(struct dag *dag, const struct node *node)
+{
+    return call_text(dag, node, "extern ");
+}
+
+const char *dag_call_source(struct dag *dag, const struct node *node)
+{
+    return call_text(dag, node, "");
 }
 
 const char *dag_need_text(struct dag *dag, const struct need *need)

@@ -50,6 +50,8 @@ const char *dag_target_name(const struct dag *dag, const struct target *target);
 const char *dag_value_text(struct dag *dag, int expression);
 /* "transfer(absolute = epsilon)" */
 const char *dag_call_text(struct dag *dag, const struct node *node);
+/* The same as the language reads it: that a name is an extern's is not told. */
+const char *dag_call_source(struct dag *dag, const struct node *node);
 const char *dag_need_text(struct dag *dag, const struct need *need); /* "form_factor >= polygon" */
 /* ", a, b or c": appends a name to a list, for sentences. */
 const char *dag_join(struct dag *dag, const char *list, const char *name);

@@ -84,7 +84,7 @@ static void print_node(const struct listing *listing, const struct node *node)
         dag_print(listing->out, ") {\n");
         print_rules(listing, node);
     } else {
-        dag_print(listing->out, "%s {", dag_call_text(dag, node));
+        dag_print(listing->out, "%s {", dag_call_source(dag, node));
         if (listing->pass >= PASS_CHECK)
             dag_print(listing->out, " # %d", node->order);
         dag_print(listing->out, "\n");

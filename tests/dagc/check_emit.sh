@@ -131,6 +131,8 @@ for change in 's/max(lamp/min(lamp/' 's/\* 2/* 3/' 's/most + lamp/lamp/' 's/size
 done
 check "diff: an expression as a witness" says 'weigh(most = max(lamp, extern glow) \* 2, share = min(1, abs(size.fine))): light' \
     "$dagc" diff --catalog "$catalog" computed.dag changed.dag
+{ grep '^extern' computed.dag; "$dagc" -Wno-all --catalog "$catalog" --emit=text computed.dag; } >back.dag
+check "what --emit=text writes is read back" status 0 "$dagc" diff --catalog "$catalog" computed.dag back.dag
 { echo 'tool more() question answers (yes, no) "More?";'; cat computed.dag; } >more.dag
 while IFS='|' read -r change what; do # both say which catalog they are for
     sed "$change" "$catalog" >other_catalog.dag
