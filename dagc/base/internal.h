@@ -234,6 +234,9 @@ void dag_emit_stub(struct dag *dag, struct text *out, const char *name);
 int dag_reads_parameters(const struct dag *dag, int expression);
 /* Adds an expression over operands that are there (-1: none); sets its size and depth. */
 int dag_add_expression(struct dag *dag, const struct expression *expression);
+/* A negative number is a number, however it is written: in parentheses, as -pi, or as an argument
+ * that takes the place of a parameter. */
+void dag_fold(const struct dag *dag, struct expression *e);
 /* Appends to needs what the tree reads, in the order of evaluation. */
 void dag_add_reads(struct dag *dag, int expression);
 /* The expression as the source has it, cut when it is long. */

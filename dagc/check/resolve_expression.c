@@ -76,6 +76,7 @@ void dag_resolve_expression(struct dag *dag, const struct scope *scope, int expr
         dag_resolve_expression(dag, scope, e->left);
     if (e->right >= 0)
         dag_resolve_expression(dag, scope, e->right);
+    dag_fold(dag, e);
     if (e->kind != EXPRESSION_NAME)
         return;
     if (e->dot == 0 && (e->parameter = dag_find(&scope->parameters, e->name)) >= 0)

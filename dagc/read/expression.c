@@ -51,11 +51,25 @@ int dag_reads_extern(const struct dag *dag, const struct oracle_graph *oracle, i
     return oracle_reads(dag, oracle, EXPRESSION_EXTERN, callback);
 }
 
+void dag_fold(const struct dag *dag, struct expression *e)
+{
+    if (e->kind != EXPRESSION_NEGATE || dag->expressions[e->left].kind != EXPRESSION_NUMBER)
+        return;
+    const struct expression operand = dag->expressions[e->left];
+    const struct where where = e->where;
+    *e = operand;
+    e->where = where;
+    e->number = -operand.number;
+    e->low = -operand.high;
+    e->high = -operand.low;
+}
+
 int dag_add_expression(struct dag *dag, const struct expression *expression)
 {
     int index = ADD(dag, expressions, expression_count);
     struct expression *e = &dag->expressions[index];
     *e = *expression;
+    dag_fold(dag, e);
     e->size = e->depth = 1;
     const int operands[] = {e->left, e->right};
     for (int i = 0; i < 2; i++)

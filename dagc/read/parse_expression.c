@@ -133,18 +133,9 @@ static int parse_unary(struct parser *parser, int *expression)
     if (too_deep(parser))
         return 0;
     parser->depth++;
-    int literal = parser->token.kind == TOKEN_NUMBER || dag_at_word(parser, "inf");
     struct expression e = new_expression(EXPRESSION_NEGATE);
     int ok = parse_unary(parser, &e.left);
     parser->depth--;
-    if (ok && literal) { /* a negative number is a number */
-        struct expression *number = &parser->dag->expressions[e.left];
-        number->number = -number->number;
-        number->where = first;
-        number->where.length = parser->last.offset + parser->last.length - first.offset;
-        *expression = e.left;
-        return 1;
-    }
     return ok && add(parser, &e, first, expression);
 }
 

@@ -115,6 +115,17 @@ for place in 's/share = 0.5/share = ZERO/' 's/flux = 1 /flux = ZERO /'; do
     sed "$place; s/ZERO/-0/" small.dag >below.dag
     check "diff: -0 is less than 0: $place" status 1 "$dagc" diff --catalog "$catalog" zero.dag below.dag
 done
+cat >minus.dag <<'END'
+graph falls(by : ratio) exits (few, more) { start a; node a = tally(scale = -by) { few -> few; otherwise -> more; } }
+oracle minus { start a; node a = falls(by = 2.5) { few -> drop; more -> split; } }
+END
+for pair in '-(2.5) -2.5' '--2.5 2.5' '-pi -3.141592653589793' '-by -2.5'; do
+    for value in $pair; do
+        echo "oracle minus { start a; node a = tally(scale = $value) { few -> drop; otherwise -> split; } }" >"$value.dag"
+    done
+    cp minus.dag ./-by.dag
+    check "diff: $pair" status 0 "$dagc" diff --catalog "$catalog" "./${pair% *}.dag" "./${pair#* }.dag"
+done
 cat >computed.dag <<'END'
 extern glow(size >= rough) : flux in [0, inf] "it shines";
 oracle computed {
