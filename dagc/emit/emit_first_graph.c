@@ -185,11 +185,14 @@ int dag_skeleton_graph(struct skeleton *s)
               s->catalog, s->name);
     int node = print_way(dag, out, &before, 1) + 1;
     print_node(dag, out, question, node - 1);
-    if (count == 2) {
+    if (count == 2) { /* by name: `otherwise` would swallow precise answers */
         dag_print(out, "%s -> ", dag->answers[tool->answers.first].name);
         print_target(dag, out, &ways[0], 0, node);
-    }
-    dag_print(out, "otherwise -> ");
+        for (int i = 1; i < tool->answers.count; i++)
+            dag_print(out, "%s%s", i > 1 ? " | " : "", dag->answers[tool->answers.first + i].name);
+    } else
+        dag_print(out, "otherwise");
+    dag_print(out, " -> ");
     print_target(dag, out, &ways[count - 1], 0, node + (count == 2 ? ways[0].count : 0));
     dag_print(out, "}\n");
     for (int i = 0; i < count; i++)

@@ -203,6 +203,8 @@ skeleton_of() {
     echo "$1" >chain.dag
     "$dagc" --emit=stub -o none chain.dag
 }
+check "a question with precise answers, over a block too" first stop "$head
+tool g(than : n in [0, 9]) question answers (no precise, yes precise, maybe precise) wave; decision stop; decision go;"
 check "nothing ends it" refused "lead to a decision that does not subdivide" skeleton_of "$head
 tool g() question answers (yes, no) guards (yes -> split); decision split subdivides;"
 check "nothing can be asked first" refused "every tool of this catalog reads what another must write" skeleton_of "$head
