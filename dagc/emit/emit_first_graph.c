@@ -156,7 +156,7 @@ int dag_skeleton_graph(struct skeleton *s)
     struct way ways[2] = {{NULL, 0, -1}, {NULL, 0, -1}};
     int count = 0;
     if (order.count == 0) {
-        dag_error(dag, dag_nowhere,
+        dag_error(dag, dag->tool_count == 0 ? dag->runtime_where : dag->tools[0].where,
                   dag->tool_count == 0
                       ? "this catalog declares no tool"
                       : "every tool of this catalog reads what another must write");
@@ -174,7 +174,7 @@ int dag_skeleton_graph(struct skeleton *s)
         count += ways[count].count >= 0 && !dag->decisions[i].subdivides;
     }
     if (count == 0) {
-        dag_error(dag, dag_nowhere,
+        dag_error(dag, dag->decision_count == 0 ? dag->runtime_where : dag->decisions[0].where,
                   "no tools of this catalog lead to a decision that does not subdivide");
         return -1;
     }

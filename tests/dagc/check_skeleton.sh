@@ -211,5 +211,11 @@ check "nothing can be asked first" refused "every tool of this catalog reads wha
 term a : n levels (low < high); term b : n levels (low < high);
 tool one() command answers (done) reads (b >= low) writes (a >= low); tool two() command answers (done) reads (a >= low) writes (b >= low);
 decision keep;"
+check "where: a decision" refused "chain.dag:2:81: error: no tools of this catalog" skeleton_of "$head
+tool g() question answers (yes, no) guards (yes -> split); term t : n; decision split subdivides;"
+check "where: a tool" refused "chain.dag:3:6: error: every tool" skeleton_of "$head
+term a : n levels (low < high); decision keep;
+tool one() command answers (done) reads (a >= low) writes (a >= high);"
+check "where: the catalog" refused "chain.dag:1:1: error: this catalog declares no tool" skeleton_of "$head decision keep;"
 check "and nothing is made" [ ! -e none ]
 finish "dagc --emit=stub"
