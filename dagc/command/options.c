@@ -482,5 +482,10 @@ int dag_parse_diff(struct job *job, int count, char **arguments)
                 return status;
         }
     }
-    return job->second_path != NULL ? -1 : wrong("diff takes two files", "");
+    if (job->second_path == NULL)
+        return wrong("diff takes two files", "");
+    if (is_standard(job->catalog_path) /* each of the two reads it */
+        || (is_standard(job->input_path) && is_standard(job->second_path)))
+        return wrong("of what diff reads, only one of the two files can be standard input", "");
+    return -1;
 }

@@ -70,6 +70,10 @@ check "diff: the witness" says 'visibility(rays = rays, near = 0): partial' "$da
 check "diff: the decision" says '^+ other.dag decides subdivide_receiver after seen' "$dagc" diff "$bf" other.dag
 check "diff: trouble" status 2 "$dagc" diff "$bf" no-such-file.dag
 check "diff: usage" status 2 "$dagc" diff "$bf"
+check "diff: one of them from standard input" status 0 sh -c "'$dagc' diff - other.dag <other.dag"
+check "diff: both" status 2 sh -c "'$dagc' diff - - <'$bf'"
+check "diff: both, and why" says 'only one of the two files can be standard input' "$dagc" diff - -
+check "diff: a catalog" says 'only one of the two files can be standard input' "$dagc" diff --catalog - "$bf" "$bf"
 cat >twice.dag <<'END'
 oracle small {
   param most : flux = 1 in [0, inf];
