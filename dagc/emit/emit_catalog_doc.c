@@ -14,7 +14,7 @@
 static void print_escaped(struct text *out, const char *text)
 {
     for (; *text != '\0'; text++)
-        dag_print(out, strchr("\\`*_[]<>|#", *text) != NULL ? "\\%c" : "%c", *text);
+        dag_print(out, strchr("\\`*_[]<>|#&", *text) != NULL ? "\\%c" : "%c", *text);
 }
 
 static void print_doc(struct text *out, const char *doc)

@@ -190,6 +190,10 @@ awk 'BEGIN { for (i = 0; i < 200; i++) print "oracle o" i " { start a; node a = 
 sed 's/left -> split/right -> split/' many.dag >others.dag
 [ -n "${SANITIZE-}" ] || check "diff: 200 oracles in 1 GB" status 1 sh -c "ulimit -v 1000000; '$dagc' diff --catalog '$catalog' many.dag others.dag"
 
+# ---- the catalog's documentation
+sed 's/"Which way?"/"Is a \&lt; b, or \&copy;, or a < b?"/' "$catalog" >signs.dag
+check "Markdown shows & and <" says '^Is a \\&lt; b, or \\&copy;, or a \\< b?$' "$dagc" --emit=catalog signs.dag
+
 # ---- standalone, and the program that ships it
 embed=$top/examples/embed
 mkdir made
