@@ -302,6 +302,11 @@
  * this, 5e-5 to 4e-4 of the reflected light is (cornell, room, panels, furnace, maze_8, each over
  * its last links) */
 #define REFINER_SOLVE_TOLERANCE_MOST 1e-3
+/* extrapolation.h: ratios of changes above which sweeps are slow; how far two may be apart, as a
+ * share of what they lack of 1; sweeps in a row. Chosen: below .97 a digit takes 76 sweeps at most */
+#define REFINER_EXTRAPOLATION_SLOW 0.97
+#define REFINER_EXTRAPOLATION_NEAR 0.3
+#define REFINER_EXTRAPOLATION_STEADY 4
 /* sweeps. A bound that has not fallen for so long is as low as rounding lets it be; chosen: without
  * rounding it falls with each */
 #define REFINER_SOLVE_STALLED 64
@@ -979,14 +984,22 @@ static inline struct refiner_hemisphere refiner_hemisphere_over(const double n[3
     return h;
 }
 
-/* Direction m of `count`; `turn`: by which part of a golden angle the whole spiral is turned. */
-static inline void refiner_hemisphere_direction(double out[3], const struct refiner_hemisphere *h, int m, int count,
-                                        double turn)
+/* Direction m of `count`; `turn`: by which part of a golden angle the whole spiral is turned;
+ * `ring`: where in its ring it is, in [0, 1). */
+static inline void refiner_hemisphere_direction_in(double out[3], const struct refiner_hemisphere *h, int m,
+                                           int count, double turn, double ring)
 {
-    double angle = 2.39996322972865332 * (m + turn), r = sqrt((m + 0.5) / count),
+    double angle = 2.39996322972865332 * (m + turn), r = sqrt((m + ring) / count),
            z = sqrt(1 - r * r);
     for (int k = 0; k < 3; k++)
         out[k] = z * h->n[k] + r * (cos(angle) * h->u[k] + sin(angle) * h->v[k]);
+}
+
+/* The same in the middle of its ring. */
+static inline void refiner_hemisphere_direction(double out[3], const struct refiner_hemisphere *h, int m, int count,
+                                        double turn)
+{
+    refiner_hemisphere_direction_in(out, h, m, count, turn, 0.5);
 }
 
 #endif

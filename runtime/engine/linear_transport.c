@@ -13,6 +13,7 @@
  * norm is below 1 in the maximum norm, on functions that have their extremes at corners: sweeps
  * converge whatever the oracle has done.
  * SPDX-License-Identifier: MIT */
+#include "engine/extrapolation.h"
 #include "engine/linear_transport.h"
 
 #include <math.h>
@@ -309,6 +310,8 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     double *room = malloc((shares_room(&op->shares) * 3 * m->bands + 1) * sizeof *room);
     double rho = 0, least = INFINITY;
     int stopped = 0, grows = 0;
+    const size_t values = (size_t)op->hierarchy->count * m->bands;
+    struct extrapolation guess = {NULL}, slopes = {NULL};
     if (ranks_any(op->shares.ranks, !change || !room)) {
         free(change);
         free(room);
@@ -319,6 +322,9 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     m->converged = 0;
     for (m->sweeps = 0;
          m->sweeps < op->problem->options.iterations && !m->converged && !stopped && !grows;) {
+        slopes.steady = guess.steady;
+        extrapolation_keep(&guess, m->value, values);
+        extrapolation_keep(&slopes, x->value, 3 * values);
         sweep(&s, change, room);
         measure(&s, change, rho);
         m->sweeps++;
@@ -326,7 +332,15 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
         least = fmin(least, m->bound);
         stopped = m->watch && m->watch(m->watch_context, m);
         grows = !l->limited && !(m->bound <= LINEAR_GROWS * least);
+        const double factor = extrapolation_factor(&guess, m->residual);
+        if (factor > 0 && !m->converged) {
+            extrapolation_add(&guess, factor, m->value, values);
+            extrapolation_add(&slopes, factor, x->value, 3 * values);
+            shares_tell_groups(&op->shares, m->value, s.bands, room);
+        }
     }
+    extrapolation_close(&slopes);
+    extrapolation_close(&guess);
     free(room);
     free(change);
     return stopped ? -1 : grows;

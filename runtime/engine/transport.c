@@ -26,6 +26,8 @@
  * largest reflectance, of the change before; Southwell's by its ambient estimate, in which what is
  * unshot goes on among all surfaces and rho is their mean.
  *
+ * Where sweeps are slow the limit is guessed from time to time (extrapolation.h).
+ *
  * How far down. What groups send is summed in single precision, so a change too small to see may
  * turn a last digit, and that change turn it back a sweep later: for ever, at a bound that falls no
  * more. Sweeps end then, if the bound is no more than single precision is worth.
@@ -37,6 +39,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/dense.h"
+#include "engine/extrapolation.h"
 #include "engine/petsc_solution.h"
 #include "engine/push_pull.h"
 #include "engine/southwell.h"
@@ -165,24 +168,33 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI || shooter;
     const int most = op->problem->options.iterations;
     const double rho = reflects(op, x);
+    const size_t values = (size_t)op->hierarchy->count * x->bands;
+    struct extrapolation guess = {NULL};
     double least = INFINITY;
-    int since = 0;
-    while (x->sweeps < most && !x->converged) {
+    int since = 0, stopped = 0;
+    while (x->sweeps < most && !x->converged && !stopped) {
         if (shooter)
             southwell_keep(shooter, op, x);
+        else
+            extrapolation_keep(&guess, x->value, values);
         transport_sweep(op, x, jacobi, change, room);
         measure(op, x, change);
         x->sweeps++;
         double left = left_of(op, x, rho);
         x->converged = left <= 1 || (!x->rough && stalled(op, x, &least, &since));
-        if (x->watch && x->watch(x->watch_context, x))
-            return -1;
-        if (shooter && !x->converged && southwell_shoot(shooter, op, x, left, most) < 0)
-            return -1;
+        stopped = x->watch && x->watch(x->watch_context, x);
+        const double factor = shooter ? 0 : extrapolation_factor(&guess, x->residual);
+        if (factor > 0 && !x->converged) {
+            extrapolation_add(&guess, factor, x->value, values);
+            shares_tell_groups(&op->shares, x->value, x->bands, room);
+        }
+        if (shooter && !x->converged && !stopped)
+            stopped = southwell_shoot(shooter, op, x, left, most) < 0;
     }
-    if (shooter && !x->converged)
+    extrapolation_close(&guess);
+    if (shooter && !x->converged && !stopped)
         southwell_ambient(shooter, op, x);
-    return 0;
+    return stopped ? -1 : 0;
 }
 
 /* What comes before the first sweep. A rough solve takes so few that nothing has to. Returns 0 or

@@ -277,6 +277,11 @@
  * this, 5e-5 to 4e-4 of the reflected light is (cornell, room, panels, furnace, maze_8, each over
  * its last links) */
 #define SOLVE_TOLERANCE_MOST 1e-3
+/* extrapolation.h: ratios of changes above which sweeps are slow; how far two may be apart, as a
+ * share of what they lack of 1; sweeps in a row. Chosen: below .97 a digit takes 76 sweeps at most */
+#define EXTRAPOLATION_SLOW 0.97
+#define EXTRAPOLATION_NEAR 0.3
+#define EXTRAPOLATION_STEADY 4
 /* sweeps. A bound that has not fallen for so long is as low as rounding lets it be; chosen: without
  * rounding it falls with each */
 #define SOLVE_STALLED 64

@@ -345,6 +345,36 @@ START_TEST(test_solvers)
 }
 END_TEST
 
+/* A cube that reflects .999, one wall of it brighter: sweeps alone take thousands, each a
+ * thousandth of what is left; guesses of what they come to spare nearly all. */
+START_TEST(test_slow)
+{
+    struct scene scene;
+    struct solve s;
+    char *settings[] = {"min_share=5e-3", NULL};
+    furnace_cube(&scene, 0.999);
+    scene.faces[0].material = made_material(&scene, 0.999, 40);
+    solve_with(&s, &scene, "bf_guarded", RELEASE_FLAT, settings, quick(1));
+    struct transport known = fresh(&s, 0), x = fresh(&s, 1e-6);
+    double off = 0, all = 0;
+    ck_assert_int_eq(dense_solve(&s.operator, & known), 0);
+    ck_assert_int_eq(transport_solve(&s.operator, & x), 0);
+    for (uint32_t i = 0; i < s.hierarchy.count; i++)
+        if (s.hierarchy.elements[i].vertices && !s.hierarchy.elements[i].children) {
+            off += s.hierarchy.elements[i].area * fabs(x.value[i] - known.value[i]);
+            all += s.hierarchy.elements[i].area * known.value[i];
+        }
+    printf("%d sweeps, bound %.1e, off by %.1e\n", x.sweeps, x.bound, off / all);
+    ck_assert_int_eq(x.converged, 1);
+    ck_assert_double_le(off, x.bound * all);
+    ck_assert_int_lt(x.sweeps, 300);
+    discard(&known);
+    discard(&x);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* The same bits by any number of threads, Southwell's and LU's whole solves. */
 START_TEST(test_threads)
 {
@@ -397,6 +427,7 @@ int main(void)
     TCase *c = tcase_create("solvers");
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, test_solvers, 0, CASES);
+    tcase_add_test(c, test_slow);
     tcase_add_loop_test(c, test_threads, 0, 4);
     tcase_add_test(c, test_too_many);
     suite_add_tcase(suite, c);
