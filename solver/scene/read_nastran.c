@@ -18,11 +18,12 @@
 #include "scene/text_lines.h"
 #include "util/report.h"
 
-enum { LINE_FIELDS = 8, FIELDS = 2 * LINE_FIELDS, WIDEST = 32 };
+enum { LINE_FIELDS = 8, STAR_FIELDS = 4, FIELDS = 2 * LINE_FIELDS, WIDEST = 32 };
 
 struct card {
     char name[WIDEST], field[FIELDS][WIDEST]; /* without blanks; shortened to what fits */
     int fields;                               /* so many have been given, empty ones too */
+    int room;                                 /* so many its lines hold: there the next begins */
     uint32_t line;
 };
 
@@ -43,6 +44,11 @@ static void copy_field(char to[WIDEST], const char *from, const char *end)
     to[n] = '\0';
 }
 
+static int line_room(const char *first)
+{
+    return strchr(first, '*') ? STAR_FIELDS : LINE_FIELDS;
+}
+
 /* The fields of a line, its first one apart; a tab goes to the next eighth column. */
 static int line_fields(const char *line, const char *end, char first[WIDEST],
                        char field[LINE_FIELDS][WIDEST])
@@ -51,7 +57,7 @@ static int line_fields(const char *line, const char *end, char first[WIDEST],
     int count = 0;
     if (comma) {
         copy_field(first, line, comma);
-        const int most = strchr(first, '*') ? 4 : LINE_FIELDS;
+        const int most = line_room(first);
         while (comma && count < most) {
             const char *from = comma + 1;
             comma = memchr(from, ',', (size_t)(end - from));
@@ -66,7 +72,7 @@ static int line_fields(const char *line, const char *end, char first[WIDEST],
         while (*line == '\t' && n % 8 && n < 80);
     }
     copy_field(first, flat, flat + (n < 8 ? n : 8));
-    const size_t width = strchr(first, '*') ? 16 : 8;
+    const size_t width = 64 / (size_t)line_room(first);
     for (size_t at = 8; at < n && at < 72; at += width)
         copy_field(field[count++], flat + at, flat + (at + width < n ? at + width : n));
     return count;
@@ -275,10 +281,9 @@ static int read_line(struct nastran *a, const char *line, const char *end, uint3
     const int count = line_fields(line, end, first, field);
     struct card *c = &a->card;
     if (!*first || *first == '+' || *first == '*') { /* the card goes on */
-        /* a line holds eight fields, or four; what the last one left out is empty */
-        for (; c->line && c->fields % 4; c->fields++)
-            if (c->fields < FIELDS)
-                *c->field[c->fields] = '\0';
+        for (; c->line && c->fields < c->room && c->fields < FIELDS; c->fields++)
+            *c->field[c->fields] = '\0'; /* the last line left it out */
+        c->room += c->room < FIELDS ? line_room(first) : 0;
         for (int i = 0; i < count && c->line && c->fields < FIELDS; i++)
             memcpy(c->field[c->fields++], field[i], WIDEST);
         return 0;
@@ -289,10 +294,10 @@ static int read_line(struct nastran *a, const char *line, const char *end, uint3
         return 1;
     if (strncasecmp(word, "INCLUDE", 7) == 0)
         snprintf(first, sizeof first, "INCLUDE");
+    *c = (struct card){.fields = count, .room = line_room(first), .line = number};
     char *star = strchr(first, '*');
     if (star)
         *star = '\0';
-    *c = (struct card){.fields = count, .line = number};
     memcpy(c->name, first, WIDEST);
     memcpy(c->field, field, (size_t)count * WIDEST);
     return 0;

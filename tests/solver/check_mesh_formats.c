@@ -593,6 +593,33 @@ START_TEST(test_systems_of_nastran)
 }
 END_TEST
 
+/* What a line leaves out is empty, whatever comes behind it: eight fields, or four with a `*`. */
+START_TEST(test_short_lines_of_nastran)
+{
+    static const char *const cards[] = {
+        "CORD2R,3,,10.,20.\n,10.,21.\n",
+        "CORD2R,3,,10.,20.,,,,\n,10.,21.,\n",
+        "CORD2R  3               10.     20.\n        10.     21.\n",
+        "CORD2R*,3,,10.,20.\n*\n*,10.,21.\n",
+        "CORD2R*,3,,10.,20.\n*,,,,\n,10.,21.\n",
+        ("CORD2R* 3                               10.             20.\n*\n"
+         "*       10.             21.\n"),
+    };
+    struct scene_file f;
+    text.size = 0;
+    put("%sGRID,1,3,0.,0.,0.\nGRID,2,3,0.,0.,1.\nGRID,3,3,0.,1.,0.\nCTRIA3,1,1,1,2,3\n", cards[_i]);
+    write_text("short.bdf");
+    ck_assert_int_eq(scene_file_read(&f, in_folder("short.bdf"), &quietly), 0);
+    /* z goes from (10 20 0) to the origin, y downwards */
+    const double root = sqrt(.2);
+    const double wanted[3][3] = {{10, 20, 0}, {10 - root, 20 - 2 * root, 0}, {10, 20, -1}};
+    for (unsigned i = 0; i < 3; i++)
+        for (unsigned k = 0; k < 3; k++)
+            ck_assert_double_eq_tol(f.positions[3 * f.indices[i] + k], wanted[i][k], 1e-14);
+    scene_file_free(&f);
+}
+END_TEST
+
 /* Each binary mesh, cut at every byte, is refused in one line, but where only ends of lines are
  * lost; so is one whose counts are huge. */
 START_TEST(test_cut_bytes)
@@ -681,6 +708,7 @@ int main(void)
     tcase_add_loop_test(t, test_polygons, 0, FORMATS);
     tcase_add_test(t, test_factors);
     tcase_add_test(t, test_systems_of_nastran);
+    tcase_add_loop_test(t, test_short_lines_of_nastran, 0, 6);
     tcase_add_loop_test(t, test_cut_bytes, 0, 3);
     tcase_add_test(t, test_view3d_surfaces);
     tcase_add_test(t, test_polygons_of_vtk);
