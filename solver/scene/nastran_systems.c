@@ -142,6 +142,9 @@ static int64_t turn(struct nastran_systems *all, struct mesh *mesh)
 int nastran_systems_place(struct nastran_systems *all, struct mesh *mesh)
 {
     int64_t placed = 1;
+    for (size_t i = 0; i < all->points; i++)
+        if (all->point[i].by_default)
+            all->point[i].system = all->default_system;
     for (int i = 0; i < TURNS && placed > 0; i++)
         placed = turn(all, mesh);
     if (placed < 0)

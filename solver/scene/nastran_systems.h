@@ -24,7 +24,8 @@ struct nastran_point {
     int64_t number, system;
     double at[3];
     uint32_t line;
-    int placed;
+    char by_default; /* names no system */
+    char placed;
 };
 
 struct nastran_systems {
@@ -32,6 +33,7 @@ struct nastran_systems {
     struct nastran_point *point;
     size_t systems, system_capacity, points, point_capacity;
     struct numbered numbers; /* of systems */
+    int64_t default_system;  /* of points that name none; GRDSET may come behind them */
 };
 
 enum nastran_added { NASTRAN_DONE, NASTRAN_TWICE, NASTRAN_FULL };

@@ -31,8 +31,7 @@ struct nastran {
     struct mesh mesh;
     struct card card; /* the one under way: line 0 when there is none */
     struct nastran_systems systems;
-    double default_system; /* of points that name none: GRDSET's */
-    int begun;             /* 1: behind BEGIN BULK, or there is none */
+    int begun; /* 1: behind BEGIN BULK, or there is none */
 };
 
 static void copy_field(char to[WIDEST], const char *from, const char *end)
@@ -128,9 +127,8 @@ static int read_grid(struct nastran *a)
                             "GRID %lld has no coordinates; the file is cut or damaged, export it "
                             "again",
                             (long long)number);
-    if (a->card.fields < 2 || !*a->card.field[1])
-        system = a->default_system;
-    if (!(system < 0 || system > 0))
+    const char by_default = !*a->card.field[1];
+    if (!by_default && !(system < 0 || system > 0))
         return mesh_define_node(&a->mesh, number, p, a->card.line);
     if (!is_whole(system, 1e15))
         return report_error(a->mesh.path, a->card.line,
@@ -139,14 +137,22 @@ static int read_grid(struct nastran *a)
     const struct nastran_point point = {.number = number,
                                         .system = (int64_t)system,
                                         .at = {p[0], p[1], p[2]},
-                                        .line = a->card.line};
+                                        .line = a->card.line,
+                                        .by_default = by_default};
     return nastran_point_add(&a->systems, &point) ? scene_file_no_memory(a->mesh.path) : 0;
 }
 
 /* GRDSET: points that name no system are in this one. */
 static int read_defaults(struct nastran *a)
 {
-    return field_number(a, 1, "a system", &a->default_system);
+    double system;
+    if (field_number(a, 1, "a system", &system))
+        return -1;
+    if (!is_whole(system, 1e15))
+        return report_error(a->mesh.path, a->card.line, "%g where a system of %s belongs", system,
+                            a->card.name);
+    a->systems.default_system = (int64_t)system;
+    return 0;
 }
 
 static int add_system(struct nastran *a, const struct nastran_system *s)

@@ -620,6 +620,26 @@ START_TEST(test_short_lines_of_nastran)
 }
 END_TEST
 
+/* GRDSET is for all points that name no system, wherever it stands; 0 is a name. */
+START_TEST(test_defaults_of_nastran)
+{
+    static const char *const cards[4] = {
+        "GRID,1,,0.,0.,0.\nGRID,2,,0.,0.,1.\nGRID,3,0,0.,1.,0.\n", "CTRIA3,1,1,1,2,3\n",
+        "CORD2R,3,,10.,0.,0.,10.,0.,1.\n,11.,0.,0.\n", "GRDSET,,3\n"};
+    struct scene_file f;
+    text.size = 0;
+    for (int i = 0; i < 4; i++)
+        put("%s", cards[(i + _i) % 4]);
+    write_text("default.bdf");
+    ck_assert_int_eq(scene_file_read(&f, in_folder("default.bdf"), &quietly), 0);
+    static const double wanted[3][3] = {{10, 0, 0}, {10, 0, 1}, {0, 1, 0}};
+    for (unsigned i = 0; i < 3; i++)
+        for (unsigned k = 0; k < 3; k++)
+            ck_assert_double_eq(f.positions[3 * f.indices[i] + k], wanted[i][k]);
+    scene_file_free(&f);
+}
+END_TEST
+
 /* Each binary mesh, cut at every byte, is refused in one line, but where only ends of lines are
  * lost; so is one whose counts are huge. */
 START_TEST(test_cut_bytes)
@@ -709,6 +729,7 @@ int main(void)
     tcase_add_test(t, test_factors);
     tcase_add_test(t, test_systems_of_nastran);
     tcase_add_loop_test(t, test_short_lines_of_nastran, 0, 6);
+    tcase_add_loop_test(t, test_defaults_of_nastran, 0, 4);
     tcase_add_loop_test(t, test_cut_bytes, 0, 3);
     tcase_add_test(t, test_view3d_surfaces);
     tcase_add_test(t, test_polygons_of_vtk);
