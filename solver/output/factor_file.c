@@ -224,7 +224,8 @@ static void write_view3d(const struct writer *w, FILE *out)
     char header[64];
     radGetExchangeReport(w->table->exchange, &report);
     snprintf(header, sizeof header, "View3D 3.3 0 %d 0 %lu",
-             !report.rows_open && !report.rows_covered, (unsigned long)w->count);
+             !report.rows_open && !report.rows_backs && !report.rows_covered,
+             (unsigned long)w->count);
     fprintf(out, "%-30s\n", header);
     write_line(w->table->areas, w->count, out);
     write_rows(w, write_dense, out);

@@ -130,6 +130,15 @@ for format in view3d energyplus openfoam; do
     "$radiosity" viewfactors $scene -q --sky --format $format -o never 2>err
     [ $? = 2 ] && grep -q 'sky adds columns' err && [ ! -e never ] || failed "--sky of $format"
 done
+# View3D's header says whether all rows close: not where they end on a black back, nor under the sky.
+sed 's/_2s/_1s/; s/mtllib.*/mtllib open.mtl/' room.obj >screen.obj
+for name in room screen open; do
+    scene=$name.obj
+    factors $name.view3d --format view3d
+    count=$((count + 1))
+    closed=$(awk 'NR == 1 { print $4 }' $name.view3d)
+    [ "$closed" = $([ $name = room ] && echo 1 || echo 0) ] || failed "closed is $closed of $name.obj"
+done
 
 # ---- what other formats of scenes call parts
 cat >two.stl <<'END'
