@@ -4,7 +4,9 @@
  * size in a binary section. There lines only count up to the section, which messages name.
  * Sections that are not needed are passed over up to their $End. In version 2 an element carries
  * its physical group, in 4.1 the surface that it is on does. A triangle that two groups have is in
- * the file twice in version 2, and once, in the first group, in 4.1.
+ * the file twice in version 2, and once, in the first group, in 4.1. A mesh that is partitioned has
+ * pieces in place of its surfaces, each with groups of its own making: it is in the first group of
+ * the surface that it was cut from.
  * [Gmsh reference manual, MSH file format]
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
@@ -226,14 +228,35 @@ static int add_surface(struct gmsh *g, int64_t tag, int64_t group)
     return 0;
 }
 
+/* 0: none. */
+static int64_t surface_group(const struct gmsh *g, int64_t dimension, int64_t tag)
+{
+    const uint32_t known = dimension == SURFACE ? numbered_find(&g->surfaces, tag) : UINT32_MAX;
+    return known == UINT32_MAX ? 0 : g->groups[known];
+}
+
+/* What a piece was cut from, and which partitions it is of. */
+static int read_parent(struct gmsh *g, int64_t *group)
+{
+    int64_t dimension, tag, partitions, ignored;
+    if (take_whole(g, "a dimension", &dimension) || take_whole(g, "a parent's number", &tag)
+        || take_count(g, "partitions", &partitions))
+        return -1;
+    for (int64_t i = 0; i < partitions; i++)
+        if (take_whole(g, "a partition", &ignored))
+            return -1;
+    *group = surface_group(g, dimension, tag);
+    return 0;
+}
+
 /* Of a surface its number and its first group; all of it must be taken where there are no lines. */
-static int read_entity(struct gmsh *g, int dimension)
+static int read_entity(struct gmsh *g, int dimension, int pieces)
 {
     int64_t tag, groups, group, first = 0, bounds;
     double x;
     if (!g->bytes && dimension != SURFACE)
         return 0;
-    if (take_whole(g, "an entity's number", &tag))
+    if (take_whole(g, "an entity's number", &tag) || (pieces && read_parent(g, &first)))
         return -1;
     for (int k = 0; k < (dimension ? 6 : 3); k++)
         if (take_number(g, "an entity's bounds", &x))
@@ -243,7 +266,7 @@ static int read_entity(struct gmsh *g, int dimension)
     for (int64_t i = 0; i < groups; i++) {
         if (take_whole(g, "a physical group", &group))
             return -1;
-        first = i ? first : group;
+        first = first ? first : group;
     }
     if (g->bytes && dimension) {
         if (take_count(g, "bounding entities", &bounds))
@@ -252,24 +275,38 @@ static int read_entity(struct gmsh *g, int dimension)
             if (take_whole(g, "a bounding entity", &group))
                 return -1;
     }
-    return dimension == SURFACE && groups ? add_surface(g, tag, first) : 0;
+    return dimension == SURFACE && first ? add_surface(g, tag, first) : 0;
 }
 
-/* Of 4.1: which physical group each surface is in. */
-static int read_entities(struct gmsh *g)
+/* How many partitions there are, and entities that are copies for others. */
+static int read_partitions(struct gmsh *g)
+{
+    int64_t count, ignored;
+    if (need_line(g, "partitions") || take_count(g, "partitions", &ignored)
+        || need_line(g, "ghost entities") || take_count(g, "ghost entities", &count))
+        return -1;
+    for (int64_t i = 0; i < count; i++)
+        if (need_line(g, "a ghost entity") || take_whole(g, "a ghost entity", &ignored)
+            || take_whole(g, "a partition", &ignored))
+            return -1;
+    return 0;
+}
+
+/* Of 4.1: which physical group each surface is in, or each piece of one. */
+static int read_entities(struct gmsh *g, int pieces)
 {
     int64_t count[4];
     g->bytes = g->binary;
-    if (need_line(g, "entities"))
+    if ((pieces && read_partitions(g)) || need_line(g, "entities"))
         return -1;
     for (int d = 0; d < 4; d++)
         if (take_count(g, "entities", &count[d]))
             return -1;
     for (int d = 0; d < 4; d++)
         for (int64_t i = 0; i < count[d]; i++)
-            if (need_line(g, "an entity") || read_entity(g, d))
+            if (need_line(g, "an entity") || read_entity(g, d, pieces))
                 return -1;
-    return need_end(g, "$EndEntities");
+    return need_end(g, pieces ? "$EndPartitionedEntities" : "$EndEntities");
 }
 
 static int read_coordinates(struct gmsh *g, int64_t number)
@@ -429,9 +466,7 @@ static int read_elements_4(struct gmsh *g)
             || take_whole(g, "an entity", &entity) || take_whole(g, "a type", &type)
             || take_count(g, "elements", &count))
             return -1;
-        const uint32_t known =
-            dimension == SURFACE ? numbered_find(&g->surfaces, entity) : UINT32_MAX;
-        const int64_t group = known == UINT32_MAX ? 0 : g->groups[known];
+        const int64_t group = surface_group(g, dimension, entity);
         for (int64_t i = 0; i < count; i++)
             if (need_line(g, "an element") || take_long(g, "an element's number", &ignored)
                 || read_element(g, type, group))
@@ -462,6 +497,8 @@ static int read_section(struct gmsh *g)
                             quoted_length(t->word, t->word_end), t->word);
     if (word_is(t, "$MeshFormat"))
         return read_format(g);
+    if (word_is(t, "$Comments"))
+        return pass_over(g);
     if (!g->version)
         return report_error(g->mesh.path, t->number,
                             "no $MeshFormat before this section; the file is older than version 2 "
@@ -469,7 +506,9 @@ static int read_section(struct gmsh *g)
     if (word_is(t, "$PhysicalNames"))
         return read_names(g);
     if (word_is(t, "$Entities") && g->version == 4)
-        return read_entities(g);
+        return read_entities(g, 0);
+    if (word_is(t, "$PartitionedEntities") && g->version == 4)
+        return read_entities(g, 1);
     if (word_is(t, "$Nodes")) {
         g->nodes = 1;
         return g->version == 4 ? read_nodes_4(g) : read_nodes_2(g);

@@ -95,12 +95,14 @@ static void put_block_4(int from, int to, int entity)
     }
 }
 
-static void write_gmsh_4(void)
+static const int whole_surfaces[] = {31, 31, 31, 32}, pieces_of_surfaces[] = {41, 42, 42, 43};
+
+static void put_gmsh_4(const int on[4], const char *pieces)
 {
-    put("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"walls\"\n2 9 \"block\"\n"
+    put("%s$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"walls\"\n2 9 \"block\"\n"
         "$EndPhysicalNames\n$Entities\n1 0 2 0\n1 0 0 0 0\n"
-        "31 0 0 0 4 5 3 1 7 0\n32 1 1 1 2 3 2 1 -9 0\n$EndEntities\n$Nodes\n2 %d 5 50\n",
-        POINTS);
+        "31 0 0 0 4 5 3 1 7 0\n32 1 1 1 2 3 2 1 -9 0\n$EndEntities\n%s$Nodes\n2 %d 5 50\n",
+        on[0] == 31 ? "" : "$Comments\n$Nodes\n$EndComments\n", on[0] == 31 ? "" : pieces, POINTS);
     for (int half = 0; half < 2; half++) {
         const int from = half * 10, to = half ? POINTS : 10;
         put("2 %d 0 %d\n", 31 + half, to - from);
@@ -110,11 +112,25 @@ static void write_gmsh_4(void)
             put("%g %g %g\n", point[i][0], point[i][1], point[i][2]);
     }
     put("$EndNodes\n$Elements\n4 %d 1 %d\n", FACES, FACES);
-    put_block_4(0, 3, 31);
-    put_block_4(3, 5, 31);
-    put_block_4(5, 7, 31);
-    put_block_4(7, FACES, 32);
+    put_block_4(0, 3, on[0]);
+    put_block_4(3, 5, on[1]);
+    put_block_4(5, 7, on[2]);
+    put_block_4(7, FACES, on[3]);
     put("$EndElements\n");
+}
+
+static void write_gmsh_4(void)
+{
+    put_gmsh_4(whole_surfaces, NULL);
+}
+
+/* Cut up: a piece is in its surface's group, or in its own where that has none. */
+static void write_gmsh_4_pieces(void)
+{
+    put_gmsh_4(pieces_of_surfaces,
+               "$PartitionedEntities\n2\n1\n44 1\n1 0 3 0\n2 0 1 1 1 0 0 0 0\n"
+               "41 2 31 1 1 0 0 0 4 5 3 1 11 0\n42 2 31 2 1 2 0 0 0 4 5 3 0 1 9\n"
+               "43 3 1 1 2 1 1 1 2 3 2 2 -9 11 0\n$EndPartitionedEntities\n");
 }
 
 static int high_first; /* the order of put_bytes */
@@ -166,10 +182,9 @@ static void write_gmsh_2_binary(void)
     put("\n$EndElements\n");
 }
 
-static void put_entity_4(int tag, int coordinates, int group, int bounds)
+static void put_rest_4(int coordinates, int group, int bounds)
 {
     static const double box[6] = {0, 0, 0, 4, 5, 3};
-    put_bytes((uint64_t)tag, 4);
     put_doubles(box, coordinates);
     put_bytes(group != 0, 8);
     if (group)
@@ -180,8 +195,25 @@ static void put_entity_4(int tag, int coordinates, int group, int bounds)
         put_bytes((uint64_t)k + 1, 4);
 }
 
+static void put_entity_4(int tag, int coordinates, int group, int bounds)
+{
+    put_bytes((uint64_t)tag, 4);
+    put_rest_4(coordinates, group, bounds);
+}
+
+static void put_piece_4(int tag, int dimension, int parent, int group, int bounds)
+{
+    const int first[] = {tag, dimension, parent};
+    for (int k = 0; k < 3; k++)
+        put_bytes((uint64_t)first[k], 4);
+    put_bytes(2, 8);
+    put_bytes(1, 4);
+    put_bytes(2, 4);
+    put_rest_4(6, group, bounds);
+}
+
 /* High bytes first; the nodes of the first half have places on their surface. */
-static void write_gmsh_4_binary(void)
+static void put_gmsh_4_binary(const int on[4])
 {
     static const int from[] = {0, 3, 5, 7, FACES};
     high_first = 1;
@@ -197,7 +229,23 @@ static void write_gmsh_4_binary(void)
     put_entity_4(4, 6, 3, 2);
     put_entity_4(31, 6, 7, 1);
     put_entity_4(32, 6, -9, 0);
-    put("\n$EndEntities\n$Nodes\n");
+    put("\n$EndEntities\n");
+    if (on[0] != 31) {
+        static const int counts[] = {2, 1, 0, 0, 3, 0};
+        put("$PartitionedEntities\n");
+        for (int k = 0; k < 6; k++) {
+            put_bytes((uint64_t)counts[k], 8);
+            if (k == 1) { /* the ghost: its number, its partition */
+                put_bytes(44, 4);
+                put_bytes(1, 4);
+            }
+        }
+        put_piece_4(41, 2, 31, 11, 0);
+        put_piece_4(42, 2, 31, 0, 1);
+        put_piece_4(43, 3, 1, -9, 2);
+        put("\n$EndPartitionedEntities\n");
+    }
+    put("$Nodes\n");
     for (int k = 0; k < 4; k++)
         put_bytes(k == 0 ? 2 : POINTS, 8);
     for (int half = 0; half < 2; half++) {
@@ -218,7 +266,7 @@ static void write_gmsh_4_binary(void)
         put_bytes(k == 0 ? 4 : FACES, 8);
     for (int b = 0; b < 4; b++) {
         put_bytes(2, 4);
-        put_bytes(b == 3 ? 32 : 31, 4);
+        put_bytes((uint64_t)on[b], 4);
         put_bytes((uint64_t)corners(from[b]) - 1, 4);
         put_bytes((uint64_t)(from[b + 1] - from[b]), 8);
         for (int i = from[b]; i < from[b + 1]; i++) {
@@ -229,6 +277,16 @@ static void write_gmsh_4_binary(void)
     }
     put("\n$EndElements\n");
     high_first = 0;
+}
+
+static void write_gmsh_4_binary(void)
+{
+    put_gmsh_4_binary(whole_surfaces);
+}
+
+static void write_gmsh_4_binary_pieces(void)
+{
+    put_gmsh_4_binary(pieces_of_surfaces);
 }
 
 static void put_small(int i)
@@ -495,6 +553,8 @@ static const struct {
     {"four.msh", write_gmsh_4, "walls", "block"},
     {"bytes_2.msh", write_gmsh_2_binary, "walls", "block"},
     {"bytes_4.msh", write_gmsh_4_binary, "walls", "block"},
+    {"pieces.msh", write_gmsh_4_pieces, "walls", "block"},
+    {"bytes_pieces.msh", write_gmsh_4_binary_pieces, "walls", "block"},
     {"small.bdf", write_nastran_small, "PSHELL 7", "PSHELL 9"},
     {"large.nas", write_nastran_large, "PSHELL 7", "PSHELL 9"},
     {"free.BDF", write_nastran_free, "PSHELL 7", "PSHELL 9"},
