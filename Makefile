@@ -32,9 +32,8 @@ WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 # No contraction of a*b+c: all releases of an oracle must agree to the bit.
 # Nobody asks for errno after a root, or for flags: without them loops over roots and choices become vectors, values stay.
 CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off -fno-math-errno -fno-trapping-math $(PARALLEL) $(SANITIZE)
-PARALLEL = -fopenmp
 CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
-LDFLAGS  = $(SANITIZE) -fopenmp
+LDFLAGS  = $(SANITIZE)
 # Which headers an object was made of.
 DEPEND   = $(if $(findstring tcc,$(CC)),-MD,-MMD -MP)
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
@@ -69,7 +68,7 @@ endif
 endif
 # What the library is linked with, and what the command needs besides.
 ENGINE_LIBS = $(EMBREE) $(PETSC_LIBS) $(MPI_LIBS) -lpthread -ldl -lm
-LIBS     = $(EMBREE) $(HDF5_LIBS) $(PETSC_LIBS) $(MPI_LIBS) -lexpat -ljansson -lpng -lz -ldl -lm
+LIBS     = $(EMBREE) $(HDF5_LIBS) $(PETSC_LIBS) $(MPI_LIBS) -lexpat -ljansson -lpng -lz -lpthread -ldl -lm
 
 # By what name a library is loaded while running: that of the version that is linked, of the headers.
 SONAME_OF = $(shell readelf -d "$$($(CC) -print-file-name=lib$(1).so)" | sed -n 's/.*SONAME.*\[\(.*\)\].*/\1/p')
@@ -85,7 +84,8 @@ wall_oracle     = $(TOOLKIT) util oracle
 wall_particles  = $(wall_visibility) particles
 wall_engine     = $(wall_particles) oracle engine
 ROOMS     = util oracle hierarchy visibility particles engine
-# The command sees public headers, what is inline of a pair's geometry, arrays and the clock; it links the library.
+# The command sees public headers, what is inline of a pair's geometry, arrays, the clock and the pool of threads; it links
+# the library, which hides its pool: the command has one of its own.
 wall_solver     = $(TOOLKIT)
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(foreach d,$(1),$(wildcard $(d:/=)/*.c))))
@@ -103,6 +103,7 @@ SCRIPTS   = $(wildcard tests/check_*.sh tests/*/check_*.sh)
 EMBEDDED  = $(patsubst %,$(BUILD)/gen/%_text.o,catalog headers interpreter)
 SHARED    = $(call objects,$(wildcard dagc/*/)) $(RUNTIME) $(EMBEDDED)
 ARCHIVE   = $(BUILD)/libradiosity.a
+COMMAND   = $(SOLVER) $(BUILD)/runtime/util/thread_pool.o $(ARCHIVE)
 LIBRARY_VERSION = $(shell sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' runtime/radiosity.h)
 SONAME    = libradiosity.so.$(basename $(LIBRARY_VERSION))
 OBJECTS   = $(call objects,$(wildcard dagc/*/)) $(RUNTIME) $(SOLVER) $(SUPPORT) $(BUILD)/dagc/command/main.o $(BUILD)/solver/main.o
@@ -164,7 +165,7 @@ $(ARCHIVE): $(RUNTIME) $(LIBDAGC)
 $(BUILD)/libradiosity.so: $(RUNTIME) $(LIBDAGC) runtime/package/exported.map
 	$(CC) $(SANITIZE) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,runtime/package/exported.map -o $@ $(RUNTIME) $(LIBDAGC) $(ENGINE_LIBS)
 
-$(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(ARCHIVE)
+$(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(COMMAND)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
 BY_API    = $(BUILD)/tests/runtime/check_api
 $(BY_API): %: %.o $(ARCHIVE)
@@ -196,12 +197,14 @@ $(WALLS)/made: Makefile
 	@rm -rf $(WALLS)
 	@$(foreach room,$(ROOMS) solver,mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) \
 	mkdir -p $(WALLS)/solver/util && ln -s $(CURDIR)/runtime/util/array.h $(CURDIR)/runtime/util/clock.h $(CURDIR)/runtime/util/loaded_symbol.h \
-		$(WALLS)/solver/util && touch $@
+		$(CURDIR)/runtime/util/thread_pool.h $(WALLS)/solver/util && touch $@
 $(filter $(BUILD)/runtime/%,$(RUNTIME)) $(filter $(BUILD)/solver/%,$(SOLVER)) $(BUILD)/solver/main.o: | $(WALLS)/made
 $(SHARED) $(if $(SANITIZE),$(SUPPORT) $(SOLVER)): CFLAGS += -fPIC
 $(RUNTIME): CFLAGS += $(if $(SANITIZE),,-fvisibility=hidden)
-# The library's threads are util/thread_pool.h's; of OpenMP it takes only what says that a loop may be a vector's.
+# Threads are util/thread_pool.h's; of OpenMP the library takes only what says that a loop may be a vector's. Some tests call
+# it from threads of OpenMP's.
 $(RUNTIME): PARALLEL = -fopenmp-simd
+$(TESTS:=.o): PARALLEL = -fopenmp
 
 ASK_MPI   = $(BUILD)/runtime/util/ranks.o $(BUILD)/solver/util/machines.o
 $(ASK_MPI): CPPFLAGS += $(MPI_CFLAGS)
@@ -239,7 +242,7 @@ COMPUTING = paths surface_error shaft separable_links viewfactors accuracy oracl
 TRACED    = $(if $(SANITIZE),-g1)
 $(TESTS:=.o): override OPT = -O0 $(TRACED)
 $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): override OPT = -O1 $(TRACED)
-$(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
+$(TESTS): LDFLAGS += -fopenmp $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
 HELPERS   = $(BUILD)/tests/runtime/embed_engine $(BUILD)/tests/runtime/width_rooms $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of $(BUILD)/bin/embree_bytes
@@ -360,10 +363,10 @@ $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 # How far solutions are from the truth, on cells and on faces, and the tables that tell of it (tests/tables/make.sh).
-$(BUILD)/bin/cell_error: $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/tables/*.c)) $(SOLVER) $(ARCHIVE)
+$(BUILD)/bin/cell_error: $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/tables/*.c)) $(COMMAND)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
-$(BUILD)/bin/by_chance: $(BUILD)/tests/studies/by_chance.o $(SOLVER) $(ARCHIVE)
+$(BUILD)/bin/by_chance: $(BUILD)/tests/studies/by_chance.o $(COMMAND)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
 $(BUILD)/bin/cost_of: $(BUILD)/tests/studies/cost_of.o

@@ -127,9 +127,9 @@ find . -path './build*' -prune -o -print | sed 's,.*/,,; s/\.[a-z]*$//' | sort -
 grep -o '`[a-z][a-z_]*`' ARCHITECTURE.md | tr -d '`' | sort -u | comm -23 - "$tmp/stems" >"$tmp/unnamed"
 judge "names that ARCHITECTURE.md has of nothing" "$tmp/unnamed"
 
-# ---- threads: the library is compiled without OpenMP, which would leave such loops to one thread and say nothing
-grep -nE '^ *#pragma omp (parallel|for|atomic|critical|barrier|single)|omp_[a-z]+_|<omp\.h>' $(grep '^runtime/' "$tmp/files") >"$tmp/openmp"
-judge "OpenMP in the library, where loops are thread_pool_run's" "$tmp/openmp"
+# ---- threads: all but tests is compiled without OpenMP, which would leave such loops to one thread and say nothing
+grep -nE '^ *#pragma omp (parallel|for|atomic|critical|barrier|single)|omp_[a-z]+_|<omp\.h>' $(cat "$tmp/files") >"$tmp/openmp"
+judge "OpenMP where loops are thread_pool_run's" "$tmp/openmp"
 if [ -n "${THOROUGH-}" ]; then
 : >"$tmp/list"
 # shellcheck disable=SC2046

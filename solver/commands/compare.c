@@ -7,6 +7,7 @@
  * follows would tell of other links. Else each release solves alone, in turn, several times, and
  * the medians of the refinement's seconds are compared.
  * SPDX-License-Identifier: MIT */
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include "commands/asked_oracle.h"
@@ -102,6 +103,7 @@ static void record(struct panel *p, const struct discussion *start, const enum d
 /* The parameters of the oracle that asks all: where the panel stands. An oracle's defaults have no
  * context, and a process runs one comparison. */
 static struct panel panel;
+static pthread_mutex_t recording = PTHREAD_MUTEX_INITIALIZER;
 
 static void panel_defaults(void *parameters)
 {
@@ -143,8 +145,9 @@ static void judge(struct panel *p, const struct discussion *block, int count,
             different |= decision[0] != decision[k] || !same(&link[0], &link[k]);
         }
         if (different) {
-#pragma omp critical(difference)
+            pthread_mutex_lock(&recording);
             record(p, &block[i], decision, link);
+            pthread_mutex_unlock(&recording);
         }
     }
 }

@@ -6,7 +6,6 @@
 #include "options/options.h"
 
 #include <getopt.h>
-#include <omp.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,6 +17,7 @@
 #include "util/array.h"
 #include "util/machines.h"
 #include "util/report.h"
+#include "util/thread_pool.h"
 
 /* what getopt_long returns: a letter, or one of these */
 enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 };
@@ -488,7 +488,7 @@ int options_parse(struct options *o, int count, char **arguments)
 {
     int status = -1;
     memset(o, 0, sizeof *o);
-    o->threads = omp_get_num_procs();
+    o->threads = thread_pool_processors();
     o->gather = -1;
     int words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
     if (!words)

@@ -7,7 +7,7 @@
  * SPDX-License-Identifier: MIT */
 #include "output/factor_file.h"
 
-#include <omp.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,6 +19,7 @@
 #include "util/ends_with.h"
 #include "util/report.h"
 #include "util/temporary.h"
+#include "util/thread_pool.h"
 
 enum { LABEL = 12, TEXT_MOST = 1 << 25 };
 
@@ -146,26 +147,50 @@ static size_t row_room(const struct writer *w)
 /* Row i of the matrix, in the thread's own place. */
 static const double *row_of(const struct writer *w, uint32_t i)
 {
-    return factor_table_row(w->table, i, &w->rows[(size_t)omp_get_thread_num() * w->work]);
+    return factor_table_row(w->table, i, &w->rows[(size_t)thread_pool_number() * w->work]);
+}
+
+struct counting {
+    const struct writer *writer;
+    atomic_ullong *count;
+};
+
+static void count_rows(const void *context, size_t from, size_t to)
+{
+    const struct counting *c = context;
+    for (size_t i = from; i < to; i++)
+        atomic_fetch_add(c->count, count_row(c->writer, row_of(c->writer, (uint32_t)i)));
 }
 
 /* Entries that are not 0. */
-static uint64_t count_entries(const struct writer *w)
+static unsigned long long count_entries(const struct writer *w)
 {
-    uint64_t count = 0;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(w->threads) reduction(+ : count)
-    for (uint32_t i = 0; i < w->count; i++)
-        count += count_row(w, row_of(w, i));
-    return count;
+    atomic_ullong count = 0;
+    thread_pool_run(w->threads, w->count, 16, count_rows, &(struct counting){w, &count});
+    return atomic_load(&count);
+}
+
+struct text_batch {
+    const struct writer *writer;
+    row_text *write;
+    uint32_t first; /* row */
+};
+
+static void write_batch(const void *context, size_t from, size_t to)
+{
+    const struct text_batch *b = context;
+    const struct writer *w = b->writer;
+    for (size_t k = from; k < to; k++) {
+        const uint32_t i = b->first + (uint32_t)k;
+        w->length[k] = b->write(w, i, row_of(w, i), w->text + k * w->room);
+    }
 }
 
 static void write_rows(const struct writer *w, row_text *write, FILE *out)
 {
     for (uint32_t first = 0; first < w->count; first += w->batch) {
         uint32_t count = w->count - first < w->batch ? w->count - first : w->batch;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(w->threads)
-        for (uint32_t k = 0; k < count; k++)
-            w->length[k] = write(w, first + k, row_of(w, first + k), w->text + k * w->room);
+        thread_pool_run(w->threads, count, 1, write_batch, &(struct text_batch){w, write, first});
         for (uint32_t k = 0; k < count; k++)
             fwrite(w->text + k * w->room, 1, w->length[k], out);
     }
@@ -281,7 +306,7 @@ static void write_text(const struct writer *w, FILE *out)
         fprintf(out,
                 "%%%%MatrixMarket matrix coordinate real general\n"
                 "%% view factors F_ij, row i to column j\n%u %u %llu\n",
-                w->count, w->columns, (unsigned long long)count_entries(w));
+                w->count, w->columns, count_entries(w));
         write_rows(w, write_sparse, out);
         break;
     default:

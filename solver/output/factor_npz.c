@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: MIT */
 #include "output/factor_npz.h"
 
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +12,7 @@
 #include "output/zip_file.h"
 #include "util/atomic_file.h"
 #include "util/report.h"
+#include "util/thread_pool.h"
 
 enum { HEADER = 128, MOST = 1 << 25 };
 
@@ -81,20 +81,25 @@ static void write_names(struct npz *p)
 
 static const double *row_of(const struct npz *p, uint32_t r)
 {
-    return factor_table_row(p->table, r, &p->rows[(size_t)omp_get_thread_num() * p->work]);
+    return factor_table_row(p->table, r, &p->rows[(size_t)thread_pool_number() * p->work]);
 }
 
-static void count_entries(struct npz *p)
+static void count_rows(const void *context, size_t from, size_t to)
 {
-    const uint32_t n = p->table->count;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(p->threads)
-    for (uint32_t r = 0; r < n; r++) {
-        const double *row = row_of(p, r);
+    const struct npz *p = context;
+    for (size_t r = from; r < to; r++) {
+        const double *row = row_of(p, (uint32_t)r);
         uint64_t count = 0;
         for (uint32_t j = 0; j < p->table->columns; j++)
             count += row[j] > 0;
         p->first[r + 1] = count;
     }
+}
+
+static void count_entries(struct npz *p)
+{
+    const uint32_t n = p->table->count;
+    thread_pool_run(p->threads, n, 16, count_rows, p);
     for (uint32_t r = 0; r < n; r++)
         p->first[r + 1] += p->first[r];
 }
@@ -117,14 +122,29 @@ static void pack_row(const struct npz *p, uint32_t r, size_t size, int values, c
     }
 }
 
+struct packing {
+    const struct npz *npz;
+    uint32_t first; /* row of the batch */
+    size_t size;
+    int values;
+};
+
+static void pack_rows(const void *context, size_t from, size_t to)
+{
+    const struct packing *k = context;
+    const struct npz *p = k->npz;
+    for (size_t r = k->first + from; r < k->first + to; r++)
+        pack_row(p, (uint32_t)r, k->size, k->values,
+                 p->packed + (p->first[r] - p->first[k->first]) * k->size);
+}
+
 static void write_entries(struct npz *p, size_t size, int values)
 {
     const uint32_t n = p->table->count;
     for (uint32_t first = 0; first < n; first += p->batch) {
         const uint32_t end = n - first < p->batch ? n : first + p->batch;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(p->threads)
-        for (uint32_t r = first; r < end; r++)
-            pack_row(p, r, size, values, p->packed + (p->first[r] - p->first[first]) * size);
+        thread_pool_run(p->threads, end - first, 1, pack_rows,
+                        &(struct packing){p, first, size, values});
         zip_write(&p->zip, p->packed, (size_t)(p->first[end] - p->first[first]) * size);
     }
 }

@@ -6,21 +6,25 @@
 #include "output/picture.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "geometry.h"
 #include "output/raster.h"
 #include "util/report.h"
+#include "util/thread_pool.h"
 
 /* samples per pixel side, pixels per meter sample, pixel rows per task */
 enum { SIDE = 3, METER = 4, BAND = 4 };
 
-/* A picture in work: what every sample reads. */
+/* A picture in work: what every sample reads, and where it ends. */
 struct drawing {
     const struct picture *picture;
     struct raster raster;
     picture_colour colour;
     const void *context;
+    uint8_t *rgb;
+    atomic_int *failed;
 };
 
 /* Half the width of a mesh line on either side of an edge, in samples. */
@@ -178,23 +182,27 @@ static int measure(struct picture *p)
     return failed ? -1 : 0;
 }
 
+static void draw_band(const void *context, size_t from, size_t to)
+{
+    const struct drawing *d = context;
+    if (!atomic_load(d->failed) && draw_rows(d, (int)from, (int)to, d->rgb))
+        atomic_store(d->failed, 1);
+}
+
 /* Light is gathered on all threads, in one part of the rows after the other; else each part is
  * drawn by one thread. */
 static int draw(const struct picture *p, picture_colour colour, const void *context, uint8_t *rgb)
 {
-    struct drawing d = {.picture = p, .colour = colour, .context = context};
-    int failed = 0, height = p->height;
-    if (raster_begin(&d.raster, &p->solution->surfaces, &p->view, p->width * SIDE, height * SIDE,
+    atomic_int failed = 0;
+    struct drawing d = {
+        .picture = p, .colour = colour, .context = context, .rgb = rgb, .failed = &failed};
+    if (raster_begin(&d.raster, &p->solution->surfaces, &p->view, p->width * SIDE, p->height * SIDE,
                      0))
         return -1;
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) reduction(| : failed) if (!p->gathering)
-#endif
-    for (int from = 0; from < height; from += BAND)
-        if (!failed)
-            failed |= draw_rows(&d, from, from + BAND < height ? from + BAND : height, rgb) != 0;
+    thread_pool_run(p->gathering ? 1 : p->solution->threads, (size_t)p->height, BAND, draw_band,
+                    &d);
     raster_end(&d.raster);
-    return failed ? -1 : 0;
+    return atomic_load(&failed) ? -1 : 0;
 }
 
 static int out_of_memory(const char *path)

@@ -28,6 +28,7 @@ struct surfaces {
 struct solution {
     struct surfaces surfaces;
     struct RadElements tree;
+    int threads; /* that may draw it; 0 is 1 */
 };
 
 /* Materials of polygons and names of materials are the scene file's, which the library does not
@@ -47,9 +48,10 @@ static inline struct surfaces surfaces_of(RadScene scene, const uint32_t *polygo
                              material_names};
 }
 
-static inline struct solution solution_of(const struct surfaces *surfaces, RadSolution solution)
+static inline struct solution solution_of(const struct surfaces *surfaces, RadSolution solution,
+                                          int threads)
 {
-    struct solution s = {.surfaces = *surfaces};
+    struct solution s = {.surfaces = *surfaces, .threads = threads};
     radGetElements(solution, &s.tree);
     return s;
 }

@@ -6,6 +6,7 @@
  * none of these in L1 and L2, and leaves the band where a centre lies under the lamp.
  * [Arvo, Torrance and Smits 1994, section 5 and figure 4]
  * SPDX-License-Identifier: MIT */
+#include <pthread.h>
 #include <stdio.h>
 #include "output/chart.h"
 #include "study/arvo.h"
@@ -13,6 +14,7 @@
 #include "util/atomic_file.h"
 #include "util/progress.h"
 #include "util/report.h"
+#include "util/thread_pool.h"
 
 enum { FINEST = 64 }; /* n x n elements */
 
@@ -20,27 +22,42 @@ static const char *const norm_names[ARVO_NORMS] = {"l1", "l2", "linf"};
 static const char *const norm_titles[ARVO_NORMS] = {"L1, W", "L2, W/m", "Linf, W/m2"};
 static const char *const projection_names[ARVO_PROJECTIONS] = {"best", "galerkin", "collocation"};
 
+struct measuring {
+    const struct options *options;
+    struct arvo_errors *errors; /* [FINEST + 1] */
+    struct account {
+        pthread_mutex_t lock;
+        struct progress progress;
+        int failed, done;
+    } * account;
+};
+
+static void measure(const void *context, size_t from, size_t to)
+{
+    const struct measuring *m = context;
+    for (size_t i = from; i < to; i++) {
+        /* the finest take longest, so they go first */
+        int n = FINEST - (int)i, short_of = 0, samples = m->options->samples;
+        if (samples)
+            short_of = arvo_sample(&m->errors[n], n, samples) < 0;
+        else
+            arvo_measure(&m->errors[n], n);
+        pthread_mutex_lock(&m->account->lock);
+        m->account->failed |= short_of;
+        progress_say(&m->account->progress, "%d of %d", ++m->account->done, FINEST);
+        pthread_mutex_unlock(&m->account->lock);
+    }
+}
+
 /* All n at once, each for itself: the same numbers for any number of threads. */
 static int measure_all(const struct options *o, struct arvo_errors errors[FINEST + 1])
 {
-    struct progress progress;
-    int failed = 0, done = 0;
-    progress_start(&progress, o->quiet);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(o->threads)
-    for (int i = 0; i < FINEST; i++) {
-        int n = FINEST - i, short_of = 0; /* the finest take longest, so they go first */
-        if (o->samples)
-            short_of = arvo_sample(&errors[n], n, o->samples) < 0;
-        else
-            arvo_measure(&errors[n], n);
-#pragma omp critical(arvo)
-        {
-            failed |= short_of;
-            progress_say(&progress, "%d of %d", ++done, FINEST);
-        }
-    }
-    progress_end(&progress);
-    return failed ? report_error("study arvo", 0, "out of memory; give fewer --samples") : 0;
+    struct account account = {.lock = PTHREAD_MUTEX_INITIALIZER};
+    progress_start(&account.progress, o->quiet);
+    thread_pool_run(o->threads, FINEST, 1, measure, &(struct measuring){o, errors, &account});
+    progress_end(&account.progress);
+    return account.failed ? report_error("study arvo", 0, "out of memory; give fewer --samples")
+                          : 0;
 }
 
 static double times_best(const struct arvo_errors *e, int norm, enum arvo_projection p)

@@ -155,7 +155,7 @@ static int measure(const struct options *o, const struct greedy *g, RadDevice de
     }
     if (status == 0) {
         const struct surfaces surfaces = surfaces_of(scene, NULL, NULL);
-        const struct solution solution = solution_of(&surfaces, s.solution);
+        const struct solution solution = solution_of(&surfaces, s.solution, o->threads);
         find_wrong(g, &solution, wrong);
         row->links = s.report.links;
         for (int n = 0; n < GREEDY_NORMS; n++)

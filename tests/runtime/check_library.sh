@@ -72,6 +72,8 @@ END2
 embree=$(objdump -p "$build/libradiosity.so" | sed -n 's/ *NEEDED *lib\(embree[0-9]*\)\.so.*/\1/p')
 objdump -p "$build/libradiosity.so" | grep -E 'NEEDED *lib(g|i)?omp' >openmp
 check "it needs no OpenMP" none openmp
+objdump -p "$build/bin/radiosity" | grep -E 'NEEDED *lib(g|i)?omp' >openmp
+check "the command needs no OpenMP" none openmp
 flags="-std=c11 -Wall -Wextra -Werror ${SANITIZE-} -I$top/runtime -I$top/dagc -I$build/gen"
 # shellcheck disable=SC2086
 check "a program with names of the engine's, and its own libdagc" \

@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
-#include <omp.h>
 #include <png.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -464,7 +463,7 @@ START_TEST(test_threads)
     struct row *r = row_new(3, shares, FACES);
     size_t size = 0;
     for (int threads = 1; threads <= 5; threads += 2) {
-        omp_set_num_threads(threads);
+        r->solution.threads = threads;
         free(draw(r, 203, 157, 1).rgb);
         size_t now = bytes_of(in_folder("e.png"), threads == 1 ? first : other, sizeof first);
         size = threads == 1 ? now : size;

@@ -315,7 +315,7 @@ START_TEST(pixels_and_corners)
     struct solved_scene s;
     struct vertex_values values;
     solve_file(&s, "examples/scenes/cornell.obj", "ff", NULL);
-    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution);
+    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution, 2);
     const char *path = in_folder("gather.png");
     for (int corners = 0; corners < 2; corners++) {
         struct gathering g = {path, s.device, s.solution, NULL, corners ? 0 : 128, 0};
@@ -367,7 +367,7 @@ START_TEST(edges_are_no_saws)
     struct solved_scene s;
     struct vertex_values values;
     solve_file(&s, "examples/scenes/room.obj", "clusters", NULL);
-    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution);
+    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution, 2);
     ck_assert_int_eq(vertex_values_build(&values, &solution), 0);
     uint8_t *seen = malloc(solution.tree.count);
     memset(seen, 1, solution.tree.count);
@@ -414,7 +414,7 @@ START_TEST(nothing_blotches)
     solve_file(&s, "examples/scenes/room.obj", "bf_guarded",
                &(struct RadSolveOptions){.basis = RAD_BASIS_LINEAR});
     ck_assert_int_eq(radCorrect(s.solution, NULL, NULL), 0);
-    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution);
+    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution, 2);
     uint32_t wall = right_wall(&s, &solution, low, high);
     for (int i = 0; i < SIDE * SIDE; i++)
         point[i] = (struct RadGatherPoint){

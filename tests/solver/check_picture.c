@@ -6,9 +6,11 @@
 #include <check.h>
 #include <math.h>
 #include <png.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <assimp/cimport.h>
@@ -22,6 +24,7 @@
 #include "output/far_away.h"
 #include "output/image.h"
 #include "output/leaf_mesh.h"
+#include "output/picture.h"
 #include "output/raster.h"
 #include "folder.h"
 #include "suite.h"
@@ -436,6 +439,54 @@ START_TEST(test_not_mirrored)
     /* Away from the edges a surface of one radiosity is one colour. */
     ck_assert_mem_eq(at(&p, 180, 90), at(&p, 210, 60), 3);
     free(p.rgb);
+    stage_free(s);
+}
+END_TEST
+
+/* Counts threads that ask it for colours; it takes its time, so that others come. */
+struct asking {
+    atomic_int threads;
+    unsigned call;
+};
+
+static void ask_colour(const void *context, const struct picture_sample *sample, double colour[3])
+{
+    static _Thread_local unsigned met;
+    struct asking *asking;
+    memcpy(&asking, context, sizeof asking);
+    (void)sample;
+    if (met != asking->call) {
+        met = asking->call;
+        atomic_fetch_add(&asking->threads, 1);
+        nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
+    }
+    colour[0] = colour[1] = colour[2] = .5;
+}
+
+/* As many threads draw as are wanted, and no more. */
+START_TEST(test_picture_threads)
+{
+    static unsigned calls;
+    struct stage *s = stage_new(1);
+    struct picture p;
+    struct view v;
+    ck_assert_int_eq(view_parse("0.5,0,0.5:0.5,1,0.5:14", &v), 0);
+    v.up[2] = 1;
+    wall(s, 0, 0, 4, 0, 0);
+    stage_build(s);
+    for (uint32_t i = 0; i < s->h.count; i++)
+        s->b[i] = 1;
+    stage_solve(s);
+    for (int threads = 1; threads <= 5; threads += 2) {
+        struct asking asking = {.call = ++calls}, *at = &asking;
+        s->solution.threads = threads;
+        ck_assert_int_eq(picture_open(&p, "p.png", &s->solution, &s->values, &v, 90, 90, 0), 0);
+        uint8_t *rgb = picture_draw(&p, ask_colour, &at);
+        ck_assert_ptr_nonnull(rgb);
+        free(rgb);
+        ck_assert_int_le(asking.threads, threads);
+        ck_assert_int_ge(asking.threads, threads > 1 ? 2 : 1);
+    }
     stage_free(s);
 }
 END_TEST
@@ -857,6 +908,7 @@ int main(void)
     tcase_add_test(t, test_view_parse);
     tcase_add_test(t, test_frame_straight_down);
     tcase_add_test(t, test_not_mirrored);
+    tcase_add_test(t, test_picture_threads);
     tcase_add_test(t, test_mesh_lines);
     tcase_add_loop_test(t, test_watertight, 0, sizeof shipped / sizeof *shipped);
     tcase_add_test(t, test_raster_depth);

@@ -94,7 +94,7 @@ static void print_errors(const struct shown *s, const struct picture *p, int kin
 static int show(const struct options *o, const struct open_scene *scene, RadSolution solved)
 {
     const struct surfaces surfaces = surfaces_of(scene->scene, NULL, NULL);
-    const struct solution solution = solution_of(&surfaces, solved);
+    const struct solution solution = solution_of(&surfaces, solved, o->threads);
     struct vertex_values values;
     struct picture p;
     struct shown s = {0};
