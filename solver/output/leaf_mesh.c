@@ -33,37 +33,83 @@ static int push_edge(struct leaf_mesh *m, const struct vertex_values *v, uint32_
     return push_edge(m, v, a, middle) || push_edge(m, v, middle, b) ? -1 : 0;
 }
 
-/* Where on the polygon's border, corner by corner, vertex c lies: between `*at` and the next.
- * Returns 0 when it is a corner. */
-static int edge_of(const struct leaf_mesh *m, const struct vertex_values *v, uint32_t from,
-                   uint32_t c, uint32_t *at)
+/* A point on a leaf's border: so far along that side; of points in one place the first to come. */
+struct border_point {
+    double along; /* in lengths of the side */
+    uint32_t side, order, vertex;
+};
+
+struct border {
+    struct border_point *points; /* [count] */
+    uint32_t count;
+    size_t capacity;
+};
+
+static int by_vertex(const void *a, const void *b)
 {
-    const double *p = v->vertices[c].position;
-    double nearest = INFINITY;
-    for (uint32_t j = from; j < m->corners; j++) {
-        const double *a = v->vertices[m->corner[j]].position,
-                     *b = v->vertices[m->corner[j + 1 < m->corners ? j + 1 : from]].position;
-        double e[3], x[3], y[3];
-        if (m->corner[j] == c)
-            return 0;
-        sub3(e, b, a);
-        sub3(x, p, a);
-        sub3(y, b, p);
-        double detour = (length3(x) + length3(y)) / length3(e);
-        if (detour < nearest) {
-            nearest = detour;
-            *at = j;
-        }
-    }
-    return 1;
+    const struct border_point *p = a, *q = b;
+    return p->vertex != q->vertex ? p->vertex < q->vertex ? -1 : 1
+           : p->order < q->order  ? -1
+                                  : p->order > q->order;
 }
 
-/* Put the vertices of other faces that lie on the leaf's edges into the last polygon, which
- * begins at `from`. */
-static int push_passing(struct leaf_mesh *m, const struct vertex_values *v, uint32_t leaf,
-                        uint32_t from)
+static int by_place(const void *a, const void *b)
 {
-    uint32_t low = 0, high = v->passing_count, at = from;
+    const struct border_point *p = a, *q = b;
+    return p->side != q->side     ? p->side < q->side ? -1 : 1
+           : p->along != q->along ? p->along < q->along ? -1 : 1
+           : p->order < q->order  ? -1
+                                  : p->order > q->order;
+}
+
+/* Where the vertex is along the side from a to b. Returns how much longer the way past it is than
+ * the side. */
+static double measure_along(const struct vertex_values *v, uint32_t a, uint32_t b, uint32_t vertex,
+                            double *along)
+{
+    const double *p = v->vertices[vertex].position;
+    double e[3], x[3], y[3];
+    sub3(e, v->vertices[b].position, v->vertices[a].position);
+    sub3(x, p, v->vertices[a].position);
+    sub3(y, v->vertices[b].position, p);
+    *along = dot3(e, e) > 0 ? fmax(dot3(x, e) / dot3(e, e), 0) : 0;
+    return (length3(x) + length3(y)) / length3(e);
+}
+
+static int push_point(struct border *b, uint32_t vertex, uint32_t side, double along)
+{
+    if (array_reserve(&b->points, (size_t)b->count + 1, &b->capacity, sizeof *b->points) < 0)
+        return -1;
+    b->points[b->count] = (struct border_point){along, side, b->count, vertex};
+    b->count++;
+    return 0;
+}
+
+/* A vertex on the nearest of the leaf's sides. */
+static int push_on_side(struct border *b, const struct vertex_values *v, const uint32_t *c,
+                        uint32_t sides, uint32_t vertex)
+{
+    double nearest = INFINITY, along = 0;
+    uint32_t side = 0;
+    for (uint32_t j = 0; j < sides; j++) {
+        double here, detour = measure_along(v, c[j], c[(j + 1) % sides], vertex, &here);
+        if (detour < nearest) {
+            nearest = detour;
+            along = here;
+            side = j;
+        }
+    }
+    return push_point(b, vertex, side, along);
+}
+
+/* Put the vertices of other faces that lie on the leaf's sides into the last polygon, whose sides
+ * begin at first[0 .. sides]. Any number of them may lie on one. */
+static int push_passing(struct leaf_mesh *m, const struct vertex_values *v, uint32_t leaf,
+                        uint32_t sides, const uint32_t *first, struct border *b)
+{
+    const uint32_t *c = &v->corner[4 * (size_t)leaf];
+    uint32_t low = 0, high = v->passing_count, kept = 0;
+    int failed = 0;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         if (v->passing[middle].leaf < leaf)
@@ -71,15 +117,28 @@ static int push_passing(struct leaf_mesh *m, const struct vertex_values *v, uint
         else
             high = middle;
     }
-    for (; low < v->passing_count && v->passing[low].leaf == leaf; low++) {
-        if (!edge_of(m, v, from, v->passing[low].vertex, &at))
-            continue;
-        if (push_number(&m->corner, &m->corners, &m->corner_capacity, 0))
-            return -1;
-        memmove(&m->corner[at + 2], &m->corner[at + 1], (m->corners - at - 2) * sizeof *m->corner);
-        m->corner[at + 1] = v->passing[low].vertex;
-    }
-    return 0;
+    if (low == v->passing_count || v->passing[low].leaf != leaf)
+        return 0;
+    b->count = 0;
+    for (uint32_t j = 0; j < sides; j++)
+        for (uint32_t i = first[j]; i < first[j + 1] && !failed; i++) {
+            double along;
+            (void)measure_along(v, c[j], c[(j + 1) % sides], m->corner[i], &along);
+            failed = push_point(b, m->corner[i], j, along);
+        }
+    for (; low < v->passing_count && v->passing[low].leaf == leaf && !failed; low++)
+        failed = push_on_side(b, v, c, sides, v->passing[low].vertex);
+    if (failed)
+        return -1;
+    qsort(b->points, b->count, sizeof *b->points, by_vertex);
+    for (uint32_t i = 0; i < b->count; i++)
+        if (!kept || b->points[kept - 1].vertex != b->points[i].vertex)
+            b->points[kept++] = b->points[i];
+    qsort(b->points, kept, sizeof *b->points, by_place);
+    m->corners = first[0];
+    for (uint32_t i = 0; i < kept && !failed; i++)
+        failed = push_number(&m->corner, &m->corners, &m->corner_capacity, b->points[i].vertex);
+    return failed;
 }
 
 /* One start more: where the last polygon ends. */
@@ -96,6 +155,7 @@ static int finish(struct leaf_mesh *m, int failed)
 int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution,
                     const struct vertex_values *values)
 {
+    struct border border = {0};
     int failed = 0;
     *m = (struct leaf_mesh){0};
     for (uint32_t i = 0; i < solution->tree.count && !failed; i++) {
@@ -106,10 +166,15 @@ int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution,
         failed |= push_number(&m->start, &m->polygons, &m->polygon_capacity, m->corners)
                   || push_number(&m->material, &m->materials, &m->material_capacity,
                                  solution->surfaces.faces[e->face].material);
-        for (uint32_t j = 0; j < e->vertices && !failed; j++)
-            failed |= push_edge(m, values, c[j], c[j + 1 < e->vertices ? j + 1 : 0]);
-        failed = failed || push_passing(m, values, i, m->start[m->polygons - 1]);
+        const uint32_t sides = (uint32_t)e->vertices;
+        uint32_t first[5] = {m->corners};
+        for (uint32_t j = 0; j < sides && !failed; j++) {
+            failed |= push_edge(m, values, c[j], c[(j + 1) % sides]);
+            first[j + 1] = m->corners;
+        }
+        failed = failed || push_passing(m, values, i, sides, first, &border);
     }
+    free(border.points);
     return finish(m, failed);
 }
 

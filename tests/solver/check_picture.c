@@ -745,6 +745,50 @@ START_TEST(test_leaf_mesh)
 }
 END_TEST
 
+/* A square beside a strip of many quads, which hang on most of its edge and share no corner
+ * with it: all are in its polygon, in order, at no more cost than finding them. */
+START_TEST(test_many_passing)
+{
+    enum { STRIP = 16000 };
+    struct stage *s = stage_new(1);
+    struct RadFace *faces = calloc(STRIP + 1, sizeof *faces);
+    memcpy(faces[0].vertex, SQUARE, sizeof SQUARE);
+    for (uint32_t i = 0; i < STRIP; i++) {
+        const double x[2] = {.1 + .7 * i / STRIP, .1 + .7 * (i + 1) / STRIP};
+        const double v[4][3] = {{x[0], -.01, 0}, {x[1], -.01, 0}, {x[1], 0, 0}, {x[0], 0, 0}};
+        memcpy(faces[i + 1].vertex, v, sizeof v);
+    }
+    for (uint32_t i = 0; i <= STRIP; i++) {
+        faces[i].vertices = 4;
+        faces[i].input = i;
+    }
+    s->solution.surfaces.faces = faces;
+    s->solution.surfaces.face_count = STRIP + 1;
+    ck_assert_int_eq(hierarchy_build(&s->h, (const struct face *)(const void *)faces, STRIP + 1),
+                     0);
+    ck_assert_uint_lt(s->h.count, ELEMENTS_MAX);
+    const clock_t began = clock();
+    stage_solve(s);
+    const clock_t found = clock();
+    struct leaf_mesh m;
+    ck_assert_int_eq(leaf_mesh_build(&m, &s->solution, &s->values), 0);
+    ck_assert_double_le((double)(clock() - found), 3 * (double)(found - began));
+    uint32_t large = 0;
+    while (large < m.polygons && m.start[large + 1] - m.start[large] == 4)
+        large++;
+    ck_assert_uint_lt(large, m.polygons);
+    ck_assert_uint_eq(m.start[large + 1] - m.start[large], STRIP + 5);
+    for (uint32_t i = m.start[large] + 1; i < m.start[large] + STRIP + 3; i++) {
+        const double *a = s->values.vertices[m.corner[i - 1]].position,
+                     *b = s->values.vertices[m.corner[i]].position;
+        ck_assert(a[1] == 0 && b[1] == 0 && a[0] < b[0]);
+    }
+    leaf_mesh_free(&m);
+    stage_free(s);
+    free(faces);
+}
+END_TEST
+
 /* A written file through Assimp, with the area of all; place: of its node. */
 static const struct aiScene *read_back(const char *path, struct aiMatrix4x4 *place)
 {
@@ -916,6 +960,7 @@ int main(void)
     tcase_add_test(t, test_bad_sizes);
     tcase_add_test(t, test_export_format);
     tcase_add_test(t, test_leaf_mesh);
+    tcase_add_test(t, test_many_passing);
     tcase_add_test(t, test_exports);
     tcase_add_test(t, test_exports_far_away);
     tcase_add_test(t, test_ply_bytes);
