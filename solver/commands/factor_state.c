@@ -30,31 +30,43 @@ static enum RadStateWish ask(void *user)
 {
     struct factor_state *s = user;
     const double now = seconds();
-    const int stop = stop_signal_came(),
-              due = !s->failed && now - s->saved > fmax(SAVE_EVERY, 20 * s->save_for);
+    const int stop = stop_signal_came(), due = now - s->saved > fmax(SAVE_EVERY, 20 * s->save_for);
     s->save_began = now;
+    if (stop || due)
+        s->failed = 0;
+    if (stop) /* nothing is tried after it */
+        s->told = 0;
     s->whole = s->whole && !stop; /* until it is, anew */
     return stop ? RAD_STATE_STOP : due ? RAD_STATE_SAVE : RAD_STATE_NONE;
 }
 
+static void note_time(struct factor_state *s)
+{
+    s->saved = seconds();
+    s->save_for = s->saved - s->save_began;
+}
+
+/* What is full now may have room at the next save. */
 static int fail(struct factor_state *s)
 {
-    s->failed = 1;
+    s->failed = s->told = 1;
+    note_time(s);
     return -1;
 }
 
 static int write_state(void *user, const void *bytes, size_t size)
 {
     struct factor_state *s = user;
-    if (!s->out.stream && atomic_open(&s->out, s->path) < 0)
+    if (!s->out.stream
+        && (s->told ? atomic_open_silently(&s->out, s->path) : atomic_open(&s->out, s->path)) < 0)
         return fail(s);
     if (bytes && fwrite(bytes, 1, size, s->out.stream) == size)
         return 0;
     if (atomic_commit(&s->out) < 0) /* which says why it could not be written */
         return fail(s);
     s->whole = 1;
-    s->saved = seconds();
-    s->save_for = s->saved - s->save_began;
+    s->told = 0;
+    note_time(s);
     return 0;
 }
 

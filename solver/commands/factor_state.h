@@ -24,6 +24,7 @@ struct factor_state {
     double start, saved, save_began; /* s, of the clock */
     double save_for;                 /* s, that the last one took */
     int failed;                      /* the last one could not be written */
+    int told;                        /* since one could not; the next may be */
     int whole;                       /* this run has written one */
 };
 

@@ -20,11 +20,12 @@ enum { BUFFER = 1 << 18 }; /* of the C library's 4 KiB each would be a call of t
 
 static int fail(struct atomic_file *file, int cause)
 {
-    report_error(file->path ? file->path : "output", 0, "cannot write: %s; %s", strerror(cause),
-                 cause == ENOENT || cause == ENOTDIR ? "make the folder first"
-                 : cause == EISDIR                   ? "give the name of a file, not of a folder"
-                 : cause == ENOSPC                   ? "free some space or write elsewhere"
-                                                     : "choose a place where you may write");
+    if (!file->silent)
+        report_error(file->path ? file->path : "output", 0, "cannot write: %s; %s", strerror(cause),
+                     cause == ENOENT || cause == ENOTDIR ? "make the folder first"
+                     : cause == EISDIR ? "give the name of a file, not of a folder"
+                     : cause == ENOSPC ? "free some space or write elsewhere"
+                                       : "choose a place where you may write");
     atomic_discard(file);
     return -1;
 }
@@ -60,9 +61,9 @@ static FILE *open_temporary(struct atomic_file *file)
     return NULL;
 }
 
-int atomic_open(struct atomic_file *file, const char *path)
+static int open_file(struct atomic_file *file, const char *path, int silent)
 {
-    *file = (struct atomic_file){0};
+    *file = (struct atomic_file){.silent = silent};
     file->path = strdup(path);
     if (!file->path)
         return fail(file, ENOMEM);
@@ -84,6 +85,16 @@ int atomic_open(struct atomic_file *file, const char *path)
     if (file->buffer)
         setvbuf(file->stream, file->buffer, _IOFBF, BUFFER);
     return 0;
+}
+
+int atomic_open(struct atomic_file *file, const char *path)
+{
+    return open_file(file, path, 0);
+}
+
+int atomic_open_silently(struct atomic_file *file, const char *path)
+{
+    return open_file(file, path, 1);
 }
 
 int atomic_check(const char *path)

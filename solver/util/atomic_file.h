@@ -15,6 +15,7 @@ struct atomic_file {
     char *target;    /* the file behind path, symbolic links resolved */
     char *buffer;    /* of the stream */
     char *temporary; /* NULL when path is a device or a pipe, which is written in place */
+    int silent;      /* nothing is said of what goes wrong */
 };
 
 /* Could path be written now? Leaves no trace. To be asked before long work whose result goes there.
@@ -24,6 +25,9 @@ int atomic_check(const char *path);
 /* Each returns 0, or -1 after one line on stderr; a failed file is discarded already. */
 int atomic_open(struct atomic_file *file, const char *path);
 int atomic_commit(struct atomic_file *file);
+
+/* The same without a line, in the commit, too: of what has been told. */
+int atomic_open_silently(struct atomic_file *file, const char *path);
 
 /* Close without leaving a trace. Allowed on a file that is not open. */
 void atomic_discard(struct atomic_file *file);
