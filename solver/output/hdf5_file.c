@@ -103,20 +103,21 @@ struct hdf5_file *hdf5_create(const char *path, int together)
 {
     struct hdf5_file *f = calloc(1, sizeof *f);
     struct stat status;
-    static const char more[] = ".radiosity.tmp"; /* nobody else's */
+    uint64_t own = 0, process = (uint64_t)getpid();
+    if (together) /* all write one file, of the first one's name */
+        machines_place(machines_number() == 0 ? process : 0, &own, &process);
     be_quiet();
     if (f) {
         *f = (struct hdf5_file){.path = strdup(path), .id = -1, .together = together};
         f->target = stat(path, &status) == 0 ? realpath(path, NULL) : strdup(path);
-        f->temporary = f->target ? malloc(strlen(f->target) + sizeof more) : NULL;
+        f->temporary = f->target ? malloc(strlen(f->target) + 40) : NULL;
     }
     if (!f || !f->path || !f->temporary) {
         report_error(path, 0, "cannot write: %s", strerror(errno));
         hdf5_discard(f);
         return NULL;
     }
-    /* one name for all processes, which a run that was killed leaves and the next writes over */
-    sprintf(f->temporary, "%s%s", f->target, more);
+    sprintf(f->temporary, "%s.%llu.tmp", f->target, (unsigned long long)process);
     int failed = 0;
     errno = 0;
     if (!together || machines_number() == 0) {

@@ -38,7 +38,18 @@ same_on() {
 check "at one go" "$radiosity" solve "$scene" -q --json whole.json
 check "with a checkpoint" "$radiosity" solve "$scene" -q --threads 1 --checkpoint c.h5 --json a.json
 same "with a checkpoint" a.json
-check "it leaves nothing else" [ ! -e c.h5.radiosity.tmp ]
+# Another run of the same checkpoint writes a file of its own.
+"$radiosity" solve "$scene" -q --checkpoint two.h5 --json b.json >said 2>&1 &
+other=$!
+check "two at a time" "$radiosity" solve "$scene" -q --checkpoint two.h5 --json a.json
+wait $other
+check "two at a time: the other" [ $? = 0 ]
+same "two at a time" a.json
+same "two at a time: the other" b.json
+check "two at a time: it goes on" "$radiosity" solve "$scene" -q --restart two.h5 --json a.json
+same "two at a time, gone on with" a.json
+check "two at a time: nothing else is left" [ -z "$(ls two.h5.*.tmp 2>/dev/null)" ]
+check "it leaves nothing else" [ -z "$(ls c.h5.*.tmp 2>/dev/null)" ]
 for threads in 1 3; do
     check "it goes on" "$radiosity" solve "$scene" -q --threads $threads --restart c.h5 --json a.json
     same "$threads threads" a.json
@@ -47,7 +58,7 @@ done
 # ---- killed at any time
 kills=0
 for wait in .1 .2 .3 .45 .6 .8 1.1; do
-    rm -f k.h5 k.h5.radiosity.tmp
+    rm -f k.h5 k.h5.*.tmp
     "$radiosity" solve "$scene" -q --checkpoint k.h5 >out 2>err &
     pid=$!
     sleep $wait
@@ -135,7 +146,7 @@ cp c.h5 full.h5
 check "a full disk: 1" [ $? = 1 ]
 check "it says so" grep -q "^full.h5: error: cannot write: " said
 check "the last good file stays" cmp c.h5 full.h5
-check "and nothing else" [ ! -e full.h5.radiosity.tmp ]
+check "and nothing else" [ -z "$(ls full.h5.*.tmp 2>/dev/null)" ]
 
 # ---- the same of several processes
 command -v mpirun >/dev/null && ldd "$radiosity" | grep -q libmpi || { finish checkpoint; exit; }
