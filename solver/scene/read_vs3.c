@@ -28,9 +28,9 @@ struct vs3 {
     struct text_lines lines;
     struct surface *surface;
     size_t count, capacity;
-    int planes;              /* 1: F 3a */
-    uint32_t clamped, moved; /* how many emittances, how many subsurfaces */
-    uint32_t clamped_line, moved_line;
+    int planes; /* 1: F 3a */
+    /* how many emittances, subsurfaces and obstructions, and where the first is */
+    uint32_t clamped, moved, obstructions, clamped_line, moved_line, obstruction_line;
 };
 
 /* The next word, which may be on another line; a comment ends a line. Returns 0 at the end. */
@@ -209,6 +209,8 @@ static int read_surface(struct vs3 *v, int kind)
     } else if (read_corners(v, number, &s)) {
         return -1;
     }
+    if (kind == 'O' && !v->obstructions++)
+        v->obstruction_line = s.line;
     if (kind == 'O' ? mesh_material(&v->mesh, "obstruction", 11, 0, &s.material)
                     : read_surface_data(v, number, &s))
         return -1;
@@ -313,9 +315,14 @@ int read_vs3(struct scene_file *f, const char *path, char *text, size_t size, in
     struct vs3 v = {.mesh = {.file = f, .path = path}, .lines = text_lines(text, size)};
     int result =
         memchr(text, 0, size) ? report_error(path, 0, "not a text, hence no View3D input") : 0;
-    while (!result && next_value(&v) && *v.lines.word != '*'
-           && toupper((unsigned char)*v.lines.word) != 'E')
-        result = read_entry(&v);
+    int ended = 0;
+    while (!result && !ended && next_value(&v)) {
+        ended = *v.lines.word == '*' || toupper((unsigned char)*v.lines.word) == 'E';
+        result = ended ? 0 : read_entry(&v);
+    }
+    if (!result && !ended && !quiet)
+        report_warning(path, v.lines.number,
+                       "ends without E or *, which belong behind the last entry: is it cut off?");
     if (!result)
         result = hand_over(&v) || mesh_finish(&v.mesh, quiet) ? -1 : 0;
     if (!result && v.clamped && !quiet)
@@ -326,6 +333,11 @@ int read_vs3(struct scene_file *f, const char *path, char *text, size_t size, in
                        "%lu subsurfaces take from their bases: their rows come first, all others "
                        "after them in the file's order",
                        (unsigned long)v.moved);
+    if (!result && v.obstructions && !quiet)
+        report_warning(path, v.obstruction_line,
+                       "%lu obstructions are black surfaces, with rows and columns of their own, "
+                       "which View3D leaves out",
+                       (unsigned long)v.obstructions);
     mesh_free(&v.mesh);
     free(v.surface);
     return result;

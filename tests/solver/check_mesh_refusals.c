@@ -122,6 +122,39 @@ START_TEST(test_refusals)
 }
 END_TEST
 
+#define TRIANGLE "F 3\nV 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\nS 1 1 2 3 0 0 0 .5 a\n"
+
+/* What is read, though something is odd about it: a line that says so, besides that of all meshes,
+ * that their faces are grey. */
+START_TEST(test_warnings)
+{
+    static const struct {
+        const char *name, *content, *said;
+    } cases[] = {
+        {"a.vs3", TRIANGLE "End\n", NULL},
+        {"a.vs3", TRIANGLE "*\n", NULL},
+        {"a.vs3", TRIANGLE, ":5: warning: ends without E or *"},
+        {"a.vs3", TRIANGLE "O 2 1 3 2 0 b\nO 3 1 3 2 0\nE\n",
+         ":6: warning: 2 obstructions are black surfaces, with rows"},
+        {"a.bdf",
+         "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
+         "CTRIA3,1,1,1,2,3\n",
+         ":5: warning: ends without ENDDATA"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        text.size = 0;
+        put("%s", cases[i].content);
+        write_text(cases[i].name);
+        const char *said = said_of(in_folder(cases[i].name), &(struct scene_options){0}, 0);
+        int lines = 0;
+        for (const char *c = said; *c; c++)
+            lines += *c == '\n';
+        ck_assert_msg(lines == (cases[i].said ? 2 : 1), "%zu: %s", i, said);
+        ck_assert_msg(!cases[i].said || strstr(said, cases[i].said), "%zu: %s", i, said);
+    }
+}
+END_TEST
+
 int main(void)
 {
     if (folder_make("mesh_refusals") < 0)
@@ -129,6 +162,7 @@ int main(void)
     Suite *suite = suite_create("mesh_refusals");
     TCase *t = tcase_create("mesh_refusals");
     tcase_add_test(t, test_refusals);
+    tcase_add_test(t, test_warnings);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);
     folder_remove();

@@ -37,15 +37,15 @@ static inline void write_text(const char *name)
 
 static const struct scene_options quietly = {.quiet = 1};
 
-/* What reading says on stderr, of a file that must be refused. */
-static inline const char *refusal(const char *path)
+/* What reading says on stderr, of a file of which that must be the result. */
+static inline const char *said_of(const char *path, const struct scene_options *how, int wanted)
 {
     static char said[1000];
     struct scene_file f;
     fflush(stderr);
     const int was = dup(2), to = open(in_folder("said"), O_RDWR | O_CREAT | O_TRUNC, 0600);
     dup2(to, 2);
-    const int result = scene_file_read(&f, path, &quietly);
+    const int result = scene_file_read(&f, path, how);
     fflush(stderr);
     dup2(was, 2);
     close(was);
@@ -53,8 +53,15 @@ static inline const char *refusal(const char *path)
     const ssize_t size = read(to, said, sizeof said - 1);
     close(to);
     said[size > 0 ? size : 0] = '\0';
-    ck_assert_msg(result == -1, "%s is read", path);
+    ck_assert_msg(result == wanted, "%s: %s", path, result ? said : "is read");
+    if (result == 0)
+        scene_file_free(&f);
     return said;
+}
+
+static inline const char *refusal(const char *path)
+{
+    return said_of(path, &quietly, -1);
 }
 
 #define POLYDATA "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
