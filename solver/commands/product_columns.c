@@ -45,6 +45,24 @@ static int read_row(struct columns *c, const char *path, struct text_lines *t)
     return 0;
 }
 
+/* Commas to blanks. Returns 0, or -1 after a message: of `1,,2` a blank would make two columns. */
+static int part_cells(const char *path, struct text_lines *t)
+{
+    int filled = 0, parted = 0;
+    for (char *at = t->line; at <= t->line_end; at++) {
+        const int end = at == t->line_end || *at == '#', comma = !end && *at == ',';
+        if ((comma || (end && parted)) && !filled)
+            return report_error(path, t->number, "an empty cell; write a number between commas");
+        if (end)
+            break;
+        if (comma)
+            *at = ' ';
+        parted |= comma;
+        filled = !comma && (filled || !is_blank(*at));
+    }
+    return 0;
+}
+
 /* A line that does not begin with a number; a comma ends one, too. */
 static int is_head(const struct text_lines *t)
 {
@@ -75,9 +93,7 @@ int columns_read(struct columns *c, const char *path, uint32_t faces)
             *t.line_end = 0;
             continue;
         }
-        for (char *at = t.line; at < t.line_end; at++)
-            *at = *at == ',' ? ' ' : *at;
-        if (read_row(c, path, &t) < 0)
+        if (part_cells(path, &t) < 0 || read_row(c, path, &t) < 0)
             return -1;
     }
     if (c->rows == faces)

@@ -128,6 +128,15 @@ check "which is kept" sh -c '[ "$(head -n 1 z)" = a,b ] && tail -n 6 z | cmp - y
 count=$((count + 1))
 "$radiosity" viewfactors cube.obj -q --product seven -o w >out 2>err
 [ $? = 1 ] && grep -q "7 lines of numbers, but the scene has 6 faces" err && [ ! -e w ] || failed "a line too many"
+for cells in 1,,2 1,2, ,1,2 '1, ,2' '1,2, # three' ,; do
+    { head -n 3 two && echo "$cells" && head -n 2 two; } >holes
+    count=$((count + 1))
+    "$radiosity" viewfactors cube.obj -q --product holes -o w >out 2>err
+    [ $? = 1 ] && grep -q "^holes:4: error: an empty cell; write a number" err && [ ! -e w ] || failed "cells '$cells'"
+done
+{ head -n 5 two && echo '1 , 2 # 1,,2'; } >spaced
+check "blanks beside commas" "$radiosity" viewfactors cube.obj -q --product spaced -o w
+check "the same product" cmp w y
 
 # ---- columns and sensors are text: a name that says matrix is refused, and nothing is written
 for name in y.npz y.mtx y.idf; do
