@@ -7,30 +7,15 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "util/atomic_file.h"
+#include "util/csv_text.h"
 #include "util/report.h"
 
 /* Sums over the faces that one polygon became. */
 struct total {
     double area, irradiance[3];
 };
-
-static void write_name(FILE *out, const char *name)
-{
-    if (!strpbrk(name, ",\"\r\n")) {
-        fputs(name, out);
-        return;
-    }
-    putc('"', out);
-    for (; *name; name++) {
-        if (*name == '"')
-            putc('"', out);
-        putc(*name, out);
-    }
-    putc('"', out);
-}
 
 static void write_header(FILE *out, uint32_t bands, int measured)
 {
@@ -50,7 +35,7 @@ static void write_row(FILE *out, const struct solution *s, uint32_t i, const str
     const struct RadMaterial *m = &s->surfaces.materials[material];
     int dropped = !(t->area > 0);
     fprintf(out, "%u,", (unsigned)i);
-    write_name(out, s->surfaces.material_names[material]);
+    write_csv_text(out, s->surfaces.material_names[material]);
     fprintf(out, ",%.12g", s->surfaces.polygon_areas[i]);
     for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k]);

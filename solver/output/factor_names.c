@@ -1,5 +1,5 @@
 /* factor_names.c - see factor_names.h.
- * [RFC 4180 for quotes; EnergyPlus, Input Output Reference: a comma or semicolon ends a field, an
+ * [EnergyPlus, Input Output Reference: a comma or semicolon ends a field, an
  * exclamation mark starts a comment, names are the same whatever their capitals]
  * SPDX-License-Identifier: MIT */
 #include "output/factor_names.h"
@@ -9,23 +9,9 @@
 #include <strings.h>
 
 #include "util/atomic_file.h"
+#include "util/csv_text.h"
 #include "util/ends_with.h"
 #include "util/report.h"
-
-static void write_quoted(const char *name, FILE *out)
-{
-    if (!strpbrk(name, ",\"") && *name != ' ' && !ends_with(name, " ")) {
-        fputs(name, out);
-        return;
-    }
-    fputc('"', out);
-    for (; *name; name++) {
-        if (*name == '"')
-            fputc('"', out);
-        fputc(*name, out);
-    }
-    fputc('"', out);
-}
 
 int factor_names_write(const char *path, const struct factor_table *t)
 {
@@ -38,7 +24,7 @@ int factor_names_write(const char *path, const struct factor_table *t)
     for (uint32_t r = 0; r < t->count; r++) {
         if (table) {
             fprintf(file.stream, "%lu,", (unsigned long)r);
-            write_quoted(t->names[r], file.stream);
+            write_csv_text(file.stream, t->names[r]);
             fprintf(file.stream, ",%.12g\n", t->areas[r]);
         } else {
             fprintf(file.stream, "%s\n", t->names[r]);

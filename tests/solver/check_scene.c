@@ -1241,6 +1241,22 @@ START_TEST(test_faces_csv)
                            "0,\"a, \"\"b\"\"_2s\",0,0,0,0,0\n"
                            "1,\"a, \"\"b\"\"_2s\",1,1,0.5,2,2\n");
     free(text);
+    /* as names of rows are written: blanks at the ends are kept by quotes */
+    static char in_front[] = " a", behind[] = "a ", within[] = "a b", empty[] = "";
+    static const struct {
+        char *name;
+        const char *wanted;
+    } names[] = {{in_front, "\" a\""}, {behind, "\"a \""}, {within, "a b"}, {empty, ""}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char wanted[80], *const all[] = {names[i].name};
+        struct solution other = solution;
+        other.surfaces.material_names = all;
+        ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &other, NULL), 0);
+        snprintf(wanted, sizeof wanted, "\n1,%s,1,1,", names[i].wanted);
+        text = read_text(in_folder("f.csv"));
+        ck_assert_msg(strstr(text, wanted), "%s", text);
+        free(text);
+    }
     unload_scene(&l);
 }
 END_TEST
