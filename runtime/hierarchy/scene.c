@@ -424,10 +424,6 @@ int scene_build(struct scene *scene, const struct RadPolygons *polygons,
 
 void scene_free(struct scene *scene)
 {
-    for (uint32_t i = 0; scene->names && i < scene->material_count; i++)
-        free(scene->names[i]);
-    free(scene->names);
-    free(scene->input_materials);
     free(scene->materials);
     free(scene->faces);
     free(scene->lit);

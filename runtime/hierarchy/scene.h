@@ -37,9 +37,6 @@ struct scene {
     double overlap_area; /* that they lost, of all their sides (m2) */
     struct RadOverlap overlap[RAD_OVERLAPS_NAMED];
     struct RadTurnedPolygons turned_closed, turned_open; /* shells.h */
-    /* Of a scene read by scene_read, for the tables; else NULL. */
-    char **names;              /* [material_count] */
-    uint32_t *input_materials; /* [input_count] */
 };
 
 /* What keeps a scene from being built. */

@@ -1,6 +1,6 @@
 /* factor_names.c - see factor_names.h.
- * [EnergyPlus, Input Output Reference: a comma or semicolon ends a field, an
- * exclamation mark starts a comment, names are the same whatever their capitals]
+ * [EnergyPlus, Input Output Reference: a comma or semicolon ends a field, an exclamation mark
+ * starts a comment, names are the same whatever their capitals]
  * SPDX-License-Identifier: MIT */
 #include "output/factor_names.h"
 

@@ -247,7 +247,10 @@ START_TEST(test_two_sided)
                          sizeof s.faces[0].vertex[0]);
     ck_assert_double_eq_tol(s.areas[0], 1, 1e-12); /* one side */
     const struct RadMaterial *m = &s.materials[s.faces[0].material];
-    ck_assert_str_eq(s.names[s.faces[0].material], "b_2s");
+    struct scene_file file;
+    ck_assert_int_eq(scene_file_read(&file, in_folder("s.obj"), NULL), 0);
+    ck_assert_str_eq(file.names[s.faces[0].material], "b_2s");
+    scene_file_free(&file);
     ck_assert_int_eq(m->two_sided, 1);
     for (int k = 0; k < 3; k++) {
         ck_assert_double_eq(m->reflectance[k], 0.25 * (k + 1));

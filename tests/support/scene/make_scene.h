@@ -16,9 +16,8 @@ static inline int made_open_for(struct scene *s, size_t faces)
     s->faces = calloc(faces, sizeof *s->faces);
     s->materials = calloc(MADE_MATERIALS, sizeof *s->materials);
     s->areas = calloc(faces, sizeof *s->areas);
-    s->input_materials = calloc(faces, sizeof *s->input_materials);
     s->bands = 1;
-    return s->faces && s->materials && s->areas && s->input_materials ? 0 : -1;
+    return s->faces && s->materials && s->areas ? 0 : -1;
 }
 
 static inline int made_open(struct scene *s)
@@ -47,7 +46,6 @@ static inline void made_face(struct scene *s, uint32_t material, int n, const do
     f->input = s->face_count;
     f->black =
         s->materials[material].reflectance[0] <= 0 && s->materials[material].exitance[0] <= 0;
-    s->input_materials[s->face_count] = material;
     s->face_count++;
     s->input_count++;
 }
@@ -123,7 +121,6 @@ static inline void made_close(struct scene *s)
     free(s->faces);
     free(s->materials);
     free(s->areas);
-    free(s->input_materials);
 }
 
 #endif

@@ -27,13 +27,6 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
         memcpy(report.overlap, scene->overlap, sizeof report.overlap);
         if (!options || !options->quiet)
             scene_file_warn(&file, path, &report, RAD_TURNED_IGNORE);
-        scene->names = file.names;
-        scene->input_materials = file.polygon_materials;
-        for (uint32_t i = 0; i < file.material_count; i++)
-            free(file.places[i].file);
-        file.material_count = 0;
-        file.names = NULL;
-        file.polygon_materials = NULL;
     }
     scene_file_free(&file);
     return result;
