@@ -17,6 +17,8 @@
 #include <string.h>
 
 #include "geometry.h"
+#include "hierarchy/bvh.h"
+#include "hierarchy/hierarchy.h"
 #include "kernel/constants.h"
 
 /* A step along a polygon's outline, kept at the smaller of its two places. */
@@ -44,6 +46,9 @@ struct shells {
     uint8_t *side;  /* [count] */
     uint32_t *next; /* [count]: of the same piece; UINT32_MAX ends */
     struct piece_sum *sum;
+    /* Of what is asked where a shell looks inwards: the boxes of pieces, and each one's root. */
+    struct bvh tree;
+    uint32_t *piece;
 };
 
 static const double *corner(const struct shells *s, uint32_t polygon, uint32_t i)
@@ -280,22 +285,67 @@ static int is_shell(const struct shells *s, uint32_t i)
     return s->root[i] == i && !s->sum[i].open && !s->sum[i].twisted;
 }
 
+/* Does a room hold a piece, and does another room hold it? */
+struct neighbours {
+    int holds, held;
+};
+
+/* The same of the pieces below a node. */
+static void look_around(const struct shells *s, uint32_t room, uint32_t node, struct neighbours *n)
+{
+    const struct piece_sum *p = &s->sum[room];
+    const struct bounds *box = &s->tree.boxes[node];
+    const struct bvh_node *at = &s->tree.nodes[node];
+    for (int k = 0; k < 3; k++)
+        if (box->low[k] > p->high[k] || box->high[k] < p->low[k])
+            return;
+    for (uint32_t i = 0; i < at->children && !n->holds; i++)
+        look_around(s, room, at->child + i, n);
+    if (at->children)
+        return;
+    uint32_t other = s->piece[s->tree.order[at->from]];
+    if (other == room)
+        return;
+    n->holds = is_around(s, room, other);
+    n->held = n->held || (is_shell(s, other) && s->sum[other].inside && is_around(s, other, room));
+}
+
 /* Does a room stand empty in another? Then light is outside it. */
 static int is_inside_out(const struct shells *s, uint32_t room)
 {
-    int in_room = 0;
-    for (uint32_t i = 0; i < s->polygons->count; i++) {
-        const struct piece_sum *p = &s->sum[i];
-        if (i == room || s->root[i] != i)
-            continue;
-        if (is_around(s, room, i))
-            return 0;
-        in_room = in_room || (is_shell(s, i) && p->inside && is_around(s, i, room));
-    }
-    return in_room;
+    struct neighbours n = {0};
+    look_around(s, room, 0, &n);
+    return n.held && !n.holds;
 }
 
-static void judge(const struct shells *s, uint8_t *turned)
+/* The tree over the boxes of all pieces: there a face is a diagonal. Returns 0 or -1. */
+static int find_boxes(struct shells *s)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < s->polygons->count; i++)
+        n += s->root[i] == i && s->sum[i].corners;
+    struct face *boxes = calloc((size_t)n + 1, sizeof *boxes);
+    s->piece = malloc(((size_t)n + 1) * sizeof *s->piece);
+    if (!boxes || !s->piece) {
+        free(boxes);
+        return -1;
+    }
+    n = 0;
+    for (uint32_t i = 0; i < s->polygons->count; i++) {
+        if (s->root[i] != i || !s->sum[i].corners)
+            continue;
+        memcpy(boxes[n].vertex[0], s->sum[i].low, sizeof boxes[n].vertex[0]);
+        memcpy(boxes[n].vertex[1], s->sum[i].high, sizeof boxes[n].vertex[1]);
+        boxes[n].vertices = 2;
+        s->piece[n++] = i;
+    }
+    int result = bvh_build(&s->tree, boxes, n, CLUSTERING_SAH, 1);
+    free(boxes);
+    return result;
+}
+
+/* Returns 0 or -1. */
+static int judge(struct shells *s, uint8_t *turned)
 {
     for (uint32_t r = 0; r < s->polygons->count; r++) {
         const struct piece_sum *p = &s->sum[r];
@@ -304,11 +354,14 @@ static void judge(const struct shells *s, uint8_t *turned)
         if (s->root[r] != r || p->twisted
             || (!shell && !(p->area[!right] <= SHELL_FEW * (p->area[0] + p->area[1]))))
             continue;
+        if (shell && p->inside && !s->piece && find_boxes(s) < 0)
+            return -1;
         right ^= shell && p->inside && is_inside_out(s, r);
         for (uint32_t i = r; i != UINT32_MAX; i = s->next[i])
             if (!two_sided(s, i) && s->side[i] != right)
                 turned[i] = shell ? TURNED_CLOSED : TURNED_OPEN;
     }
+    return 0;
 }
 
 int shells_find(const struct RadPolygons *polygons, const struct RadMaterial *materials,
@@ -339,8 +392,10 @@ int shells_find(const struct RadPolygons *polygons, const struct RadMaterial *ma
         find_edges(&s);
         join_all(&s);
         add_up(&s);
-        judge(&s, turned);
+        failed = judge(&s, turned) < 0;
     }
+    bvh_free(&s.tree);
+    free(s.piece);
     free(s.at);
     free(s.place);
     free(s.edges);
