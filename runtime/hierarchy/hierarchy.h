@@ -17,6 +17,7 @@ struct face {
     uint8_t back;        /* 1: the far side of a two-sided face that is also listed */
     uint8_t black;       /* 1: neither emits nor reflects in any band */
     uint8_t light;       /* enum face_light */
+    uint8_t apart;       /* 1: it lies on no other part of its input */
 };
 
 /* What is known of the light on the sides of a two-sided face. No light comes to a dark one, and no

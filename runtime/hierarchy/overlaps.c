@@ -157,7 +157,8 @@ static int gather(struct finder *f, uint32_t node)
         return result;
     uint32_t i = f->tree->order[n->from];
     const struct face *face = &f->scene->faces[i];
-    if (i == f->sheet.index || face->back || !ranks_before(f->scene, i, f->sheet.index))
+    if (i == f->sheet.index || (face->apart && face->input == f->sheet.face.input) || face->back
+        || !ranks_before(f->scene, i, f->sheet.index))
         return 0;
     if (!may_lie_in(f, face, box))
         return 0;

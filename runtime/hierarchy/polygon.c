@@ -10,6 +10,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "geometry.h"
@@ -99,6 +100,63 @@ int polygon_convex_quad(double (*vertex)[3])
             return 0;
     }
     return 1;
+}
+
+/* An edge in the plane of two axes. */
+struct flat_edge {
+    double from[2], to[2], low, high; /* low, high: along the first axis */
+    uint32_t at;
+};
+
+static int by_low(const void *a, const void *b)
+{
+    const struct flat_edge *x = a, *y = b;
+    return (x->low > y->low) - (x->low < y->low);
+}
+
+/* Are both ends of an edge to one side of another? */
+static int is_beside(const struct flat_edge *e, const struct flat_edge *line)
+{
+    double x = line->to[0] - line->from[0], y = line->to[1] - line->from[1],
+           from = x * (e->from[1] - line->from[1]) - y * (e->from[0] - line->from[0]),
+           to = x * (e->to[1] - line->from[1]) - y * (e->to[0] - line->from[0]);
+    return (from > 0 && to > 0) || (from < 0 && to < 0);
+}
+
+static int is_apart(const struct flat_edge *a, const struct flat_edge *b, uint32_t count)
+{
+    uint32_t gap = a->at > b->at ? a->at - b->at : b->at - a->at;
+    return gap == 1 || gap == count - 1 || fmin(a->from[1], a->to[1]) > fmax(b->from[1], b->to[1])
+           || fmax(a->from[1], a->to[1]) < fmin(b->from[1], b->to[1]) || is_beside(a, b)
+           || is_beside(b, a);
+}
+
+int polygon_simple(double (*vertex)[3], uint32_t count)
+{
+    double normal[3];
+    polygon_normal(vertex, count, normal);
+    int axis = 0, simple = 1;
+    for (int k = 1; k < 3; k++)
+        axis = fabs(normal[k]) > fabs(normal[axis]) ? k : axis;
+    struct flat_edge *edges = malloc(count * sizeof *edges);
+    if (!edges)
+        return 0;
+    for (uint32_t i = 0; i < count; i++) {
+        struct flat_edge *e = &edges[i];
+        for (int k = 0; k < 2; k++) {
+            e->from[k] = vertex[i][(axis + 1 + k) % 3];
+            e->to[k] = vertex[i + 1 < count ? i + 1 : 0][(axis + 1 + k) % 3];
+        }
+        e->low = fmin(e->from[0], e->to[0]);
+        e->high = fmax(e->from[0], e->to[0]);
+        e->at = i;
+    }
+    qsort(edges, count, sizeof *edges, by_low);
+    for (uint32_t i = 0; i < count && simple; i++)
+        for (uint32_t j = i + 1; j < count && edges[j].low <= edges[i].high && simple; j++)
+            simple = is_apart(&edges[i], &edges[j], count);
+    free(edges);
+    return simple;
 }
 
 /* A ring of corners that triangles are cut off. */

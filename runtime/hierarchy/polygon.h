@@ -22,6 +22,9 @@ int polygon_flat(double (*vertex)[3], uint32_t count, double tolerance);
 /* 1 when a flat quad has no inward corner and does not cross itself. */
 int polygon_convex_quad(double (*vertex)[3]);
 
+/* 1 when no edges meet but neighbours, seen along the mean normal; 0 also when out of memory. */
+int polygon_simple(double (*vertex)[3], uint32_t count);
+
 /* Cut into count - 2 triangles or fewer by ear clipping, in the plane of the mean normal; concave
  * polygons are cut right. Triangles are corner indices in the polygon's own sense of rotation,
  * `scratch` holds `count` numbers. Returns the number of triangles, 0 when the outline crosses

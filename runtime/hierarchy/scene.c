@@ -244,7 +244,8 @@ static int add_polygon(struct builder *b, uint32_t input, const uint32_t *indice
     double normal[3], part[3][3];
     if (b->turned && b->turned[input] == TURNED_CLOSED && b->polygons->turned == RAD_TURNED_FLIP)
         flip_corners(b->corner, count);
-    int none = polygon_degenerate(b->corner, count, scene->precision), crosses = 0, result = 0;
+    int none = polygon_degenerate(b->corner, count, scene->precision), crosses = 0, result = 0,
+        apart = 0;
     if (!none && is_whole(b, b->corner, count)) {
         result = add_face(b, b->corner, whole, count, input);
     } else if (!none) {
@@ -257,15 +258,20 @@ static int add_polygon(struct builder *b, uint32_t input, const uint32_t *indice
             if (!polygon_degenerate(part, 3, scene->precision))
                 result = add_face(b, b->corner, b->triangle[i], 3, input);
         }
+        /* Ears are cut off some outlines that cross themselves, too. */
+        apart = triangles > 2 && polygon_simple(b->corner, count);
     } else if (count > 3) { /* loops that run opposite ways may cancel out */
         double size = polygon_size(b->corner, count);
         crosses = crossing_normal(b->corner, count, normal) > SCENE_THIN * size * size;
     }
     if (crosses) {
+        apart = 1;
         result = add_crossing(b, input, count, normal);
         if (!none || scene->face_count > before)
             scene->crossing_first = scene->crossing++ ? scene->crossing_first : input;
     }
+    for (uint32_t i = before; i < scene->face_count; i++)
+        scene->faces[i].apart = (uint8_t)apart;
     if (scene->face_count > before)
         b->used[material_of(b->polygons, input)] = SEEN;
     else

@@ -406,6 +406,58 @@ START_TEST(test_many)
 }
 END_TEST
 
+/* Commit polygons of a device's. Returns the processor's time that it took (s). */
+static double commit_timed(RadDevice device, const struct RadPolygons *polygons, RadScene *scene)
+{
+    *scene = radNewScene(device);
+    radSetSceneMaterials(*scene, materials, 1);
+    radSetSceneSharedPolygons(*scene, polygons);
+    const clock_t start = clock();
+    ck_assert_int_eq(radCommitScene(*scene), 0);
+    return (double)(clock() - start) / CLOCKS_PER_SEC;
+}
+
+/* A disc of one polygon, and as many triangles as are made of it: those of one polygon are not
+ * held against each other. */
+START_TEST(test_disc)
+{
+    enum { CORNERS = 3000, TRIANGLES = CORNERS - 2 };
+    double *position = calloc(9 * TRIANGLES, sizeof *position), took[2];
+    uint32_t *index = malloc(3 * TRIANGLES * sizeof *index);
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene[2];
+    struct RadSceneReport report;
+    for (uint32_t i = 0; i < CORNERS; i++) {
+        position[3 * i] = cos(2 * M_PI * i / CORNERS);
+        position[3 * i + 1] = sin(2 * M_PI * i / CORNERS);
+    }
+    for (uint32_t i = 0; i < 3 * TRIANGLES; i++)
+        index[i] = i;
+    struct RadPolygons polygons = {.positions = position,
+                                   .position_count = CORNERS,
+                                   .indices = index,
+                                   .size = CORNERS,
+                                   .count = 1};
+    took[0] = commit_timed(device, &polygons, &scene[0]);
+    const struct RadFace *f = radGetSceneFaces(scene[0]);
+    radGetSceneReport(scene[0], &report);
+    ck_assert_uint_eq(report.faces, TRIANGLES);
+    for (uint32_t i = 0; i < TRIANGLES; i++)
+        memcpy(&position[9 * i], f[i].vertex, 9 * sizeof *position);
+    polygons.position_count = 3 * TRIANGLES;
+    polygons.size = 3;
+    polygons.count = TRIANGLES;
+    took[1] = commit_timed(device, &polygons, &scene[1]);
+    printf("a disc of %d corners: %.2f s; its triangles: %.2f s\n", CORNERS, took[0], took[1]);
+    ck_assert_double_lt(took[0], 0.6 * took[1]);
+    for (int i = 0; i < 2; i++)
+        radReleaseScene(scene[i]);
+    radReleaseDevice(device);
+    free(position);
+    free(index);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("overlaps");
@@ -417,6 +469,7 @@ int main(void)
     tcase_add_test(c, test_neighbours);
     tcase_add_test(c, test_near);
     tcase_add_test(c, test_many);
+    tcase_add_test(c, test_disc);
     tcase_set_timeout(c, 60);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
