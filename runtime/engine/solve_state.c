@@ -28,11 +28,14 @@ static uint64_t hash_oracle(const struct refiner *refiner)
     return state_identity_text(state_identity_oracle(refiner), graph);
 }
 
-/* Those that change the answer; whose picture counts does so only where nothing is kept. */
-static uint64_t hash_options(const struct solve_options *o)
+/* Those that change the answer; whose picture counts does so only where nothing is kept. Of
+ * clusters it is the strategy, whether it was asked for or chosen. */
+static uint64_t hash_options(const struct solve *s)
 {
+    const struct solve_options *o = &s->problem.options;
+    const int clusters = (int)s->hierarchy.strategy;
     const int words[] = {o->iterations,   (int)o->solver, (int)o->projection,
-                         (int)o->closure, o->clusters,    o->linear,
+                         (int)o->closure, clusters,       o->linear,
                          o->unit,         o->no_links};
     const uint64_t hash = state_mix(0, &o->tolerance, sizeof o->tolerance);
     return state_mix(hash, words, sizeof words);
@@ -44,7 +47,7 @@ static void name_work(uint64_t *head, const struct solve *s, const struct refine
     head[STATE_VERSION] = state_identity_version();
     head[STATE_SCENE] = state_identity_scene(&s->problem, &s->hierarchy);
     head[STATE_ORACLE] = hash_oracle(refiner);
-    head[STATE_OPTIONS] = hash_options(&s->problem.options);
+    head[STATE_OPTIONS] = hash_options(s);
     head[STATE_BUILT] = s->hierarchy.built;
 }
 

@@ -42,6 +42,13 @@ int clustering_of(const char *name)
     return -1;
 }
 
+enum clustering clustering_chosen(enum clustering strategy, uint32_t count)
+{
+    return strategy != CLUSTERING_DEFAULT ? strategy
+           : count < CLUSTERS_FACES       ? CLUSTERING_HALVES
+                                          : CLUSTERING_SAH;
+}
+
 void bounds_empty(struct bounds *b)
 {
     for (int k = 0; k < 3; k++) {
@@ -269,9 +276,7 @@ static void take_boxes(struct bvh *t, const struct build *b)
 int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clustering strategy,
               int threads)
 {
-    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy
-                                          : count < CLUSTERS_FACES       ? CLUSTERING_HALVES
-                                                                         : CLUSTERING_SAH];
+    const struct strategy *s = strategies[clustering_chosen(strategy, count)];
     struct build b = {.faces = faces, .count = count, .threads = threads};
     int result = -1;
     memset(t, 0, sizeof *t);

@@ -31,6 +31,9 @@ extern const char *const clustering_names[CLUSTERING_COUNT],
 /* Returns the strategy's number, or -1. */
 int clustering_of(const char *name);
 
+/* What builds the tree over so many faces: the strategy, or what the default chooses. */
+enum clustering clustering_chosen(enum clustering strategy, uint32_t count);
+
 enum { PARTS_MAX = 8, DEPTH_MAX = 64 };
 
 struct bounds {

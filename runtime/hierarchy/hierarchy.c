@@ -190,6 +190,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     const uint32_t dark = face_count - held;
     h->faces = faces;
     h->face_count = face_count;
+    h->strategy = clustering_chosen(strategy, held);
     h->face_element = malloc(face_count * sizeof *h->face_element);
     h->range = malloc(((size_t)t.count + dark) * sizeof *h->range);
     share = malloc(face_count * sizeof *share);

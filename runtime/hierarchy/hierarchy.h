@@ -52,6 +52,7 @@ struct hierarchy {
         uint32_t from, to;
         /* [built]: the part of `order` below each element made by hierarchy_build */
     } * range;
+    enum clustering strategy; /* that has built the tree */
     uint32_t built; /* elements made by hierarchy_build: clusters and faces, then dark faces */
     double low[3], high[3]; /* bounding box of the faces (m) */
     /* [built]: 1: what stands in shafts: faces, and groups that are as good as one. NULL: faces

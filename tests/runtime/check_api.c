@@ -1507,7 +1507,6 @@ START_TEST(test_count_side_by_side)
 }
 END_TEST
 
-/* Handles keep alive what they were made from, in whatever order they are given up. */
 /* What compares all links, or ranks them, keeps more than a state has. */
 START_TEST(test_no_state)
 {
@@ -1529,6 +1528,33 @@ START_TEST(test_no_state)
 }
 END_TEST
 
+/* A state of the default's clusters is one of those that it has chosen. */
+START_TEST(test_state_of_clusters)
+{
+    static const char *const taken[] = {NULL, "halves"}, *const refused[] = {"sah", "octree"};
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    RadSolution from = radNewSolution(scene, oracle, NULL);
+    struct RadStatePart part[RAD_STATE_PARTS];
+    ck_assert_int_eq(radRefine(from), 0);
+    ck_assert_msg(radGetSolutionState(from, part) == 0, "%s", radGetDeviceErrorMessage(device));
+    for (int i = 0; i < 4; i++) {
+        const struct RadSolveOptions options = {.clustering = i < 2 ? taken[i] : refused[i - 2]};
+        RadSolution to = radNewSolution(scene, oracle, &options);
+        ck_assert_int_eq(radSetSolutionState(to, part), i < 2 ? 0 : -1);
+        if (i >= 2)
+            expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "it is of ");
+        radReleaseSolution(to);
+    }
+    radReleaseSolution(from);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* Handles keep alive what they were made from, in whatever order they are given up. */
 START_TEST(test_lifetimes)
 {
     RadDevice device = radNewDevice(NULL);
@@ -1584,6 +1610,7 @@ int main(void)
     tcase_add_test(t, test_side_by_side);
     tcase_add_test(t, test_count_side_by_side);
     tcase_add_test(t, test_no_state);
+    tcase_add_test(t, test_state_of_clusters);
     tcase_add_test(t, test_lifetimes);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;

@@ -55,6 +55,9 @@ for threads in 1 3; do
     same "$threads threads" a.json
 done
 
+check "its clusters by name" "$radiosity" solve "$scene" -q --clusters halves --restart c.h5 --json a.json
+same "clusters by name" a.json
+
 # ---- killed at any time
 kills=0
 for wait in .1 .2 .3 .45 .6 .8 1.1; do
