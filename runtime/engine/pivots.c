@@ -7,6 +7,7 @@
  * by their areas, an emitter's by what the oracles see them send.
  * [derived here]
  * SPDX-License-Identifier: MIT */
+#include <float.h>
 #include <math.h>
 #include "engine/pivots.h"
 #include "kernel/constants.h"
@@ -105,10 +106,12 @@ float find_pivots(struct pivot *r, struct pivot *s, const struct element *receiv
     double v[3];
     float turned = 0;
     sub3(v, round->centre, flat->centre);
-    double distance = length3(v);
+    double distance = length3(v), reach = receiver->radius + emitter->radius;
+    /* The nearer the centres, the more alike the faces weigh; at last no float tells them apart. */
+    const int apart = distance > (double)FLT_EPSILON * reach;
     for (int k = 0; k < 3; k++)
-        direction.normal[k] = (float)(v[k] / distance);
-    direction.shift = (float)((receiver->radius + emitter->radius) / distance);
+        direction.normal[k] = apart ? (float)(v[k] / distance) : 0;
+    direction.shift = apart ? (float)(reach / distance) : 1;
     if (!(find_pivot(&first, of_flat, flat_weight, &direction, SHOWN) > 0))
         return 0;
     for (int k = 0; k < 3; k++)

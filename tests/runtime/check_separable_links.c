@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/pivots.h"
 #include "engine/separable_links.h"
 #include "engine/separable_sums.h"
 #include "kernel/constants.h"
@@ -340,6 +341,52 @@ START_TEST(test_on_edge)
 }
 END_TEST
 
+/* Two sides with one centre pass what they do where the centres all but meet. */
+START_TEST(test_one_centre)
+{
+    static const double apart[] = {1e-5, 1e-9, 1e-16, 1e-25, 1e-300, 0};
+    enum { PLACES = sizeof apart / sizeof *apart };
+    struct hierarchy h;
+    struct refinement r;
+    struct separable_links light;
+    struct pivot pivot[PLACES][2];
+    float passes[PLACES];
+    faces_count = 0;
+    body(CORNER, (double[3]){0, 0, 0}, 0);
+    ck_assert_int_eq(hierarchy_build(&h, faces, faces_count), 0);
+    memset(&r, 0, sizeof r);
+    struct link link = {.visibility = LINK_VISIBLE}; /* of all with itself */
+    r.links = &link;
+    r.link_count = 1;
+    r.first_link = malloc(((size_t)h.count + 1) * sizeof *r.first_link);
+    for (uint32_t i = 0; i <= h.count; i++)
+        r.first_link[i] = i > 0;
+    for (uint32_t i = 0; i < h.count; i++)
+        h.elements[i].radiosity = 1;
+    ck_assert_int_eq(
+        separable_links_open(&light, &h, &r, 1, 1, 0, (struct face_range){0, h.face_count}), 0);
+    for (int i = 0; i < PLACES; i++) {
+        struct element receiver = h.elements[0], emitter = h.elements[0];
+        struct separable_side side;
+        for (int k = 0; k < 3; k++)
+            receiver.centre[k] = emitter.centre[k] = 0;
+        emitter.centre[2] = apart[i];
+        separable_side_whole(&side, &light.faces, 0, h.face_count);
+        passes[i] = find_pivots(&pivot[i][0], &pivot[i][1], &receiver, &emitter, &side, &side);
+        ck_assert_msg(passes[i] > 0 && isfinite(passes[i]), "%g apart: %g", apart[i],
+                      (double)passes[i]);
+        for (int e = 0; e < 2; e++)
+            for (int k = 0; k < 3; k++) {
+                ck_assert_float_eq_tol(pivot[i][e].centre[k], pivot[0][e].centre[k], 1e-3f);
+                ck_assert_float_eq_tol(pivot[i][e].normal[k], pivot[0][e].normal[k], 1e-3f);
+            }
+    }
+    separable_links_close(&light);
+    free(r.first_link);
+    hierarchy_free(&h);
+}
+END_TEST
+
 /* Sums over faces from .. to - 1, against those of one face after the other in double precision;
  * with vectors of any width the same bits, and nothing of faces outside. */
 START_TEST(test_sums)
@@ -399,6 +446,7 @@ int main(void)
     tcase_add_test(c, test_sums);
     tcase_add_loop_test(c, test_grazing, 0, 3);
     tcase_add_test(c, test_on_edge);
+    tcase_add_test(c, test_one_centre);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
