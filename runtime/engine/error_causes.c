@@ -62,6 +62,7 @@ struct walk {
     struct link_cover cover;
     struct cause_polygon polygon; /* so far */
     struct cause_sums *sums;
+    double passed; /* points, for the watch, that are not yet told of: less than one */
 };
 
 /* What the links of a leaf and of all above it bring, all bands (W/m2). */
@@ -229,11 +230,15 @@ static void walk_surface(struct walk *w, uint32_t e, struct brought above, doubl
     link_cover_mark(&w->cover, e, 0);
 }
 
-/* Nonzero: stop. By the thread that called in, the work is told of. */
-static int watch(struct causes *c, double length)
+/* Nonzero: stop. By the thread that called in, the work is told of. Faces of less than a point
+ * count by their lengths, too. */
+static int watch(struct walk *w, double length)
 {
-    uint64_t points = (uint64_t)(REPLICATES * length / c->line.spacing);
-    uint64_t done = atomic_fetch_add(&c->done, points) + points;
+    struct causes *c = w->causes;
+    w->passed += REPLICATES * length / c->line.spacing;
+    const uint64_t points = (uint64_t)w->passed;
+    w->passed -= (double)points;
+    const uint64_t done = atomic_fetch_add(&c->done, points) + points;
     if (thread_pool_number() == 0) {
         const struct counting counting = {CAUSE_RAYS * done,
                                           fmin((double)done / (double)c->line.points, 1)};
@@ -259,7 +264,7 @@ static void walk_chunk(struct walk *w, uint32_t chunk)
         }
         if (i + 1 == h->face_count || h->faces[i + 1].input != h->faces[i].input)
             cause_sums_add(w->sums, &w->polygon, c->rays.tracer.bands);
-        if (watch(c, until[i + 1] - until[i]))
+        if (watch(w, until[i + 1] - until[i]))
             return;
     }
 }

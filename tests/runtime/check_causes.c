@@ -281,6 +281,39 @@ START_TEST(test_all_lost)
 }
 END_TEST
 
+static int keep_share(void *context, const struct solve *s, const char *phase)
+{
+    double *share = context;
+    if (strcmp(phase, "causes") == 0) {
+        ck_assert_double_ge(s->counting->share, *share);
+        *share = s->counting->share;
+    }
+    return 0;
+}
+
+/* Of faces that have less than a point each it is told, too, how far the work is. */
+START_TEST(test_share)
+{
+    enum { TILES = 20 };
+    struct scene scene;
+    struct solve s;
+    double share = 0;
+    made_open(&scene);
+    uint32_t white = made_material(&scene, 0.5, 1);
+    for (int face = 0; face < 6; face++)
+        for (int i = 0; i < TILES * TILES; i++)
+            made_tile(&scene, white, 0, face, i, TILES, 1);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
+    s.problem.options.progress = keep_share;
+    s.problem.options.context = &share;
+    (void)causes_of(&s, 3000);
+    ck_assert_double_ge(share, 0.99);
+    ck_assert_double_le(share, 1);
+    solve_close(&s);
+    scene_free(&scene);
+}
+END_TEST
+
 /* A lamp in a room, shining down, and above it one side of a board; and `flakes` of 6 cm with two
  * sides each. */
 static void furnished_room(struct scene *scene, int flakes)
@@ -448,6 +481,7 @@ int main(void)
     tcase_add_test(rooms, test_slit);
     tcase_add_test(rooms, test_points);
     tcase_add_test(rooms, test_all_lost);
+    tcase_add_test(rooms, test_share);
     tcase_add_test(rooms, test_particles);
     tcase_add_test(rooms, test_groups);
     tcase_add_test(rooms, test_covers);
