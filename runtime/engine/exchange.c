@@ -433,8 +433,7 @@ double exchange_row(const struct exchange *x, uint32_t i, double *restrict row)
     double scale = (c->scale && !c->both ? c->scale[i] : 1) / m->area[i];
     (void)exchange_areas_row(m, i, c->both ? c->scale : NULL, row);
     for (uint32_t j = 0; j < n; j++) {
-        double f = row[j] * scale;
-        row[j] = f < 1 ? f : 1;
+        row[j] *= scale;
         sum += row[j];
     }
     return sum;

@@ -87,8 +87,9 @@ int exchange_open(struct exchange *x, const struct scene *scene, const struct re
                   const struct exchange_options *options, const char **cause);
 void exchange_close(struct exchange *x);
 
-/* Row i of F_ij, after closure, none above 1: row[areas.inputs]. Returns its sum; 0 of a face that
- * was dropped. Safe from many threads at once. */
+/* Row i of F_ij, after closure, as exchange_multiply takes it: row[areas.inputs]. What closure has
+ * left above 1 stays so. Returns its sum; 0 of a face that was dropped. Safe from many threads at
+ * once. */
 double exchange_row(const struct exchange *x, uint32_t i, double *row);
 
 /* y[rows][columns] = F x, x[inputs][columns], after closure. Returns 0, or -1 when out of memory.

@@ -184,6 +184,37 @@ START_TEST(test_product)
 }
 END_TEST
 
+/* It is so, too, where a closure makes entries larger than 1. */
+START_TEST(test_product_above)
+{
+    struct scene scene;
+    made_open(&scene);
+    made_material(&scene, 0.5, 0);
+    made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+    made_quad(&scene, 0, 0, 0, 0.01, 0, 1, 0, 1, 0, 0);
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    for (int closure = CLOSURE_ROWS; closure < CLOSURES; closure++) {
+        const struct exchange_options options = {
+            .tolerance = 3e-4, .closure = (enum closure)closure, .threads = 1};
+        const double in[2] = {0.3, 0.7};
+        double out[2], row[2];
+        struct exchange x;
+        const char *cause;
+        ck_assert_int_eq(exchange_open(&x, &scene, refiner, &options, &cause), 0);
+        for (int i = 0; i < 2; i++)
+            x.closure.scale[i] *= 1.1;
+        ck_assert_int_eq(exchange_multiply(&x, 1, in, out), 0);
+        for (uint32_t i = 0; i < 2; i++) {
+            ck_assert_double_gt(exchange_row(&x, i, row), 1.05);
+            ck_assert_double_eq_tol(out[i], row[0] * in[0] + row[1] * in[1], 1e-14);
+        }
+        exchange_close(&x);
+    }
+    refiner_close(refiner);
+    made_close(&scene);
+}
+END_TEST
+
 /* Rows, products, losses and closures are the same to the bit whether all values are kept, some of
  * those in clear view, or none; and A_i F_ij is A_j F_ji in all of them. Faces with a back are two
  * in one row. Faces far and near, in clear view and in half shadow. */
@@ -342,6 +373,7 @@ int main(void)
     tcase_add_test(c, test_parts_and_groups);
     tcase_add_test(c, test_cancel);
     tcase_add_test(c, test_product);
+    tcase_add_test(c, test_product_above);
     tcase_add_test(c, test_made_anew);
     tcase_add_test(c, test_tolerance);
     tcase_add_test(c, test_looks_once);
