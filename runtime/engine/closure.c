@@ -42,8 +42,10 @@ static int close_both_ways(struct exchange_closure *c, const struct exchange_are
                            const unsigned char *closed)
 {
     double *sums = malloc((m->inputs + 1) * sizeof *sums), low = 1, high = 1;
-    if (!sums)
+    if (ranks_any(m->ranks, !sums)) {
+        free(sums);
         return -1;
+    }
     for (;; c->iterations++) {
         c->left = 0;
         if (exchange_sums(m, threads, c->scale, sums) < 0) {
@@ -81,8 +83,10 @@ int exchange_closure_make(struct exchange_closure *c, enum closure kind,
     if (kind == CLOSURE_NONE)
         return 0;
     c->scale = malloc((m->inputs + 1) * sizeof *c->scale);
-    if (!c->scale)
+    if (ranks_any(m->ranks, !c->scale)) {
+        exchange_closure_free(c);
         return -1;
+    }
     for (uint32_t i = 0; i < m->inputs; i++)
         c->scale[i] = 1;
     c->both = kind == CLOSURE_RECIPROCAL;

@@ -122,8 +122,10 @@ int dim_paths_trace(struct dim_faces *d)
         if (d->polygon[j].wanted > d->polygon[j].paths)
             count += (d->polygon[j].wanted - d->polygon[j].paths + DIM_BLOCK - 1) / DIM_BLOCK;
     struct block *block = calloc(count + 1, sizeof *block);
-    if (!block)
+    if (ranks_any(d->tracer->ranks, !block)) {
+        free(block);
         return -1;
+    }
     for (uint32_t j = 0; j < d->count; j++)
         for (struct dim_polygon *p = &d->polygon[j]; p->paths < p->wanted; p->paths += DIM_BLOCK)
             block[next++] = (struct block){.polygon = j, .first = p->paths};

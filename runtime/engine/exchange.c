@@ -326,7 +326,7 @@ static int close_rows(struct exchange *x, const struct exchange_options *o,
     unsigned char *mark = calloc(m->inputs + (size_t)1, 1);
     x->losses = calloc(m->inputs + (size_t)1, sizeof *x->losses);
     struct asking asking = {.exchange = x, .options = o, .share = share, .ways = x->losses};
-    int status = share && before && sums && mark && x->losses ? 0 : -1;
+    int status = ranks_any(x->ranks, !share || !before || !sums || !mark || !x->losses) ? -1 : 0;
     if (status == 0)
         status = add_rows(x, &asking, sums, share);
     if (status == 0 && !o->stream && find_off(&asking, mark)) {
@@ -445,8 +445,10 @@ int exchange_multiply(const struct exchange *x, uint32_t columns, const double *
     const struct exchange_areas *m = &x->areas;
     size_t size = (size_t)m->inputs * columns;
     double *scaled = malloc((2 * size + 1) * sizeof *scaled);
-    if (!scaled)
+    if (ranks_any(x->ranks, !scaled)) {
+        free(scaled);
         return -1;
+    }
     for (size_t k = 0; k < size; k++)
         scaled[k] = in[k] * (c->both ? c->scale[k / columns] : 1);
     int status = exchange_product(m, x->threads, columns, scaled, scaled + size);

@@ -107,6 +107,7 @@ int exchange_product(const struct exchange_areas *m, int threads, uint32_t colum
     int failed = !p.scratch || !p.values || !p.sums;
     for (size_t t = 0; t < workers && !failed && (m->refinement || m->links_anew); t++)
         failed = exchange_scratch_open(&p.scratch[t], &m->limits) < 0;
+    failed = ranks_any(m->ranks, failed);
     for (uint32_t c = 0; c < columns && !failed; c += COLUMNS) {
         p.columns = columns - c < COLUMNS ? columns - c : COLUMNS;
         p.x = x + c;
@@ -125,7 +126,8 @@ int exchange_sums(const struct exchange_areas *m, int threads, const double *x, 
     double *ones = x ? NULL : malloc((m->inputs + 1) * sizeof *ones);
     for (uint32_t i = 0; i < m->inputs && ones; i++)
         ones[i] = 1;
-    int status = x || ones ? exchange_product(m, threads, 1, x ? x : ones, sums) : -1;
+    int status =
+        ranks_any(m->ranks, !x && !ones) ? -1 : exchange_product(m, threads, 1, x ? x : ones, sums);
     free(ones);
     return status;
 }

@@ -23,7 +23,7 @@ static int make_gradients(struct linear_solution *s, const struct light_operator
     uint32_t bands = x->means->bands;
     double leaves = 0;
     s->gradient = calloc((size_t)h->count * bands * 3, sizeof *s->gradient);
-    if (!s->gradient)
+    if (ranks_any(op->shares.ranks, !s->gradient))
         return -1;
     s->lowered = s->flat = 0;
     for (uint32_t i = 0; i < h->count; i++) {

@@ -73,14 +73,14 @@ int lit_faces_find(struct scene *scene, struct ranks *ranks, int threads, const 
     uint8_t *dark = calloc(count, 1);
     int result = -1;
     *cause = "out of memory";
-    if (brightest && dark)
+    if (!ranks_any(ranks, !brightest || !dark))
         result = find_brightest(scene, brightest)
                      ? find_dark(scene, brightest, ranks, threads, dark, cause)
                      : 0;
     if (result == 0 && memchr(dark, 1, count)) {
         scene->lit = malloc(count * sizeof *scene->lit);
-        result = scene->lit ? 0 : -1;
-        if (scene->lit) {
+        result = ranks_any(ranks, !scene->lit) ? -1 : 0;
+        if (result == 0) {
             memcpy(scene->lit, scene->faces, count * sizeof *scene->lit);
             mark(scene->lit, scene->face_count, dark);
         }

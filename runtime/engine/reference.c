@@ -44,8 +44,10 @@ int reference_open(struct reference *r, const struct scene *scene, int threads, 
     if (solve_open(&r->solve, scene, &options, cause) < 0)
         return -1;
     r->tracer = solve_tracer(&r->solve);
-    if (tracer_open(&r->tracer) == 0 && tally_open(&r->tally, &r->tracer, PARTICLE_STREAM, 0) == 0
-        && face_paths_open(&r->paths, &r->tracer, PATH_STREAM, 0) == 0)
+    const int failed = tracer_open(&r->tracer) < 0
+                       || tally_open(&r->tally, &r->tracer, PARTICLE_STREAM, 0) < 0
+                       || face_paths_open(&r->paths, &r->tracer, PATH_STREAM, 0) < 0;
+    if (!ranks_any(ranks, failed))
         return 0;
     reference_close(r);
     *cause = "out of memory for what is counted";

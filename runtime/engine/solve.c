@@ -410,15 +410,16 @@ int solve_begin(struct solve *s, const struct refiner *refiner, const char **cau
         s->hierarchy.elements[i].bend = 0;
     impact = impact || s->ranking.asked
              || (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE));
-    if (impact && importance_start(&s->importance, &s->operator, & s->hierarchy, &s->inputs) < 0)
-        return fail(s, "out of memory", cause);
-    if (bracket && bracket_start(&s->bracket, &s->operator, & s->hierarchy) < 0)
+    const int failed =
+        (impact && importance_start(&s->importance, &s->operator, & s->hierarchy, &s->inputs) < 0)
+        || (bracket && bracket_start(&s->bracket, &s->operator, & s->hierarchy) < 0);
+    if (ranks_any(p->options.ranks, failed))
         return fail(s, "out of memory", cause);
     if (error > 0)
         error_control_start(&s->error, error, &s->hierarchy, &s->inputs);
-    if (refinement_open(&s->refinement, &s->hierarchy, rays_host(p->rays), refiner,
-                        p->options.threads)
-        < 0)
+    if (ranks_any(p->options.ranks, refinement_open(&s->refinement, &s->hierarchy,
+                                                    rays_host(p->rays), refiner, p->options.threads)
+                                        < 0))
         return fail(s, refining, cause);
     s->refinement.limits = limits_complete(p->options.limits, p->options.ranks);
     s->refinement.watch = watch_refinement;

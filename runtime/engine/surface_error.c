@@ -130,7 +130,7 @@ static int measure_stage(struct measurement *m, struct stage *stage, double n,
         stage->from[c + 1] = stage->from[c] + 2 * (uint32_t)ceil(n * share[c] / 2);
     stage->count = stage->from[PLACES];
     stage->point = malloc(stage->count * sizeof *stage->point);
-    if (!stage->point)
+    if (ranks_any(m->tracer->ranks, !stage->point))
         return -1;
     _Atomic uint64_t rays = 0;
     const struct watch part = {tell_part, m};
@@ -179,7 +179,7 @@ static int find_wrong(struct measurement *m, struct stage *stage)
     failed = failed || spread_around(&m->places.wrong, place, weight, n, 1) < 0;
     free(place);
     free(weight);
-    return failed ? -1 : 0;
+    return ranks_any(m->tracer->ranks, failed) ? -1 : 0;
 }
 
 /* By what factor more rays of a point make the mean square surest at the same cost. Its variance is
@@ -287,8 +287,10 @@ static int measure_all(struct measurement *m, const struct solve *s,
         < 0)
         return -1;
     double *z = malloc(stage[1].count * sizeof *z);
-    if (!z)
+    if (ranks_any(m->tracer->ranks, !z)) {
+        free(z);
         return -1;
+    }
     out->l2 = mean_square(m, &stage[1], z);
     free(z);
     out->points = stage[1].count;
@@ -307,6 +309,7 @@ int surface_error_measure(const struct solve *s, const struct tracer *t,
     *out = (struct surface_error){0};
     int failed = error_places_open(&m.places, t, light, (uint32_t)fmin(landings, 0x1p30),
                                    stream_of(&m, 1), &m.rays);
+    failed = ranks_any(t->ranks, failed) ? -1 : 0;
     if (!failed && m.places.line.count > 0 && t->lights.count > 0)
         failed = measure_all(&m, s, light, all, stage, out);
     for (int i = 0; i < 2; i++)

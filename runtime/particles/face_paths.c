@@ -124,8 +124,10 @@ int face_paths_trace(struct face_paths *p, const struct tracer *t, uint64_t path
     if (paths <= p->paths)
         return 0;
     struct block *blocks = malloc(BLOCKS * sizeof *blocks);
-    if (!blocks)
+    if (ranks_any(t->ranks, !blocks)) {
+        free(blocks);
         return -1;
+    }
     for (uint32_t i = 0; i < p->faces; i++)
         wanted += face_paths_count(p, i, paths) - face_paths_count(p, i, p->paths);
     int waiting = 0, stopped = 0;

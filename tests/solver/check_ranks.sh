@@ -276,4 +276,82 @@ check "a rank was killed: the run went on for $((SECONDS - killed)) s" [ $((SECO
 check "a rank was killed, and nobody said so: $(head -n 3 said)" grep -q -i 'signal 9\|killed' said
 check "a rank was killed: $(ls)" [ ! -e td.ply -a ! -e td.json -a -z "$(find . -name 'td.*')" ]
 
+# ---- a rank that finds no memory: the others do not wait for it, and one message says so. What is refused is the first that a
+# function of the command's asks for, known by its name, or the one of a number.
+cat >refuse.c <<'END'
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+extern void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t);
+static uintptr_t from, to; /* where the caller stands */
+static int left;
+__attribute__((constructor)) static void begin(void)
+{
+    const char *rank = getenv("OMPI_COMM_WORLD_RANK"), *first = getenv("REFUSE_FROM"), *size = getenv("REFUSE_SIZE");
+    if (!rank || strcmp(rank, "1") || !first || !size)
+        return;
+    from = (uintptr_t)strtoull(first, NULL, 16);
+    to = from + (uintptr_t)strtoull(size, NULL, 16);
+    left = atoi(getenv("REFUSE_AT"));
+}
+static int refused(void *caller)
+{
+    Dl_info of;
+    if (!left || !dladdr(caller, &of))
+        return 0;
+    uintptr_t at = (uintptr_t)caller - (uintptr_t)of.dli_fbase;
+    if (at < from || at >= to || strstr(of.dli_fname, "radiosity") == NULL)
+        return 0;
+    return --left == 0 && unlink(getenv("REFUSE_MARK")) == 0;
+}
+void *malloc(size_t n) { return refused(__builtin_return_address(0)) ? NULL : __libc_malloc(n); }
+void *calloc(size_t n, size_t size) { return refused(__builtin_return_address(0)) ? NULL : __libc_calloc(n, size); }
+void *realloc(void *p, size_t n) { return refused(__builtin_return_address(0)) ? NULL : __libc_realloc(p, n); }
+END
+if ! cc -O1 -shared -fPIC -o refuse.so refuse.c || [ "$(LD_PRELOAD=$tmp/refuse.so "$radiosity" --version 2>&1)" != "$("$radiosity" --version)" ]; then
+    echo "skipped: no memory on one rank: this command cannot be given another malloc"
+else
+    nm -S "$radiosity" >names
+fi
+
+lacks() { # FUNCTION[:NUMBER] ARGUMENTS...: the second rank has no memory there
+    local name=${1%:*} at=${1#*:} status
+    [ "$at" != "$name" ] || at=1
+    shift
+    [ -s names ] || return
+    # shellcheck disable=SC2046
+    set -- $(awk -v name="$name" '$4 == name { print $1, $2; exit }' names) "$@"
+    case $1 in
+        [0-9a-f]*) ;;
+        *) echo "skipped: $name, which the compiler has put into others" && return ;;
+    esac
+    touch mark
+    timeout -k 5 30 mpirun -n 2 -x LD_PRELOAD="$tmp/refuse.so" -x REFUSE_FROM="$1" -x REFUSE_SIZE="$2" -x REFUSE_AT="$at" \
+        -x REFUSE_MARK="$tmp/mark" "$radiosity" "${@:3}" -q --threads 1 >out 2>err
+    status=$?
+    check "$name is not asked by $3" [ ! -e mark ]
+    check "no memory in $name: status $status" [ $status = 1 ]
+    check "no memory in $name, which nobody says" grep -qi memory out err
+}
+for i in 1 2 3 4 5 6; do echo "$i,1"; done >columns
+lacks exchange_open viewfactors "$cube" -o f.csv
+lacks exchange_sums viewfactors "$cube" -o f.csv
+lacks exchange_product viewfactors "$cube" -o f.csv
+lacks exchange_closure_make viewfactors "$cube" -o f.csv --closure reciprocal
+lacks exchange_multiply viewfactors "$cube" --product columns -o f.csv
+lacks lit_faces_find solve "$cube" --two-sided
+lacks reserve_importance solve "$cube" --oracle importance --view .5,.5,.5:.9,.5,.4
+lacks refinement_open solve "$cube"
+lacks linear_solution_solve:5 solve "$cube"
+lacks face_paths_trace solve "$top/tests/runtime/sky_room.obj"
+lacks dim_paths_trace solve "$scenes/room.obj"
+lacks measure_stage solve "$cube" --errors
+lacks surface_error_measure solve "$cube" --errors
+lacks tracer_open reference "$cube" -o r.csv --accuracy 5%
+lacks face_paths_open reference "$cube" -o r.csv --accuracy 5%
+
 finish ranks
