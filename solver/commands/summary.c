@@ -122,12 +122,12 @@ json_t *summary_json(const struct summary *s)
     struct RadOracleReport oracle;
     radGetOracleReport(s->oracle, &oracle);
     json_t *all =
-        json_pack("{s:o, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "scene",
+        json_pack("{s:o, s:s, s:s, s:o, s:i, s:i, s:I, s:I, s:I, s:I, s:I}", "scene",
                   json_text(s->options->scene), "oracle", oracle.name, "release", oracle.release,
                   "parameters", oracle_parameters_json(s->oracle), "threads", s->options->threads,
-                  "bands", (int)r->bands, "faces", (int)scene->polygons, "faces_cut",
-                  (int)scene->cut, "faces_cut_into", (int)scene->parts, "elements",
-                  (int)r->elements, "leaves", (int)r->leaves);
+                  "bands", (int)r->bands, "faces", (json_int_t)scene->polygons, "faces_cut",
+                  (json_int_t)scene->cut, "faces_cut_into", (json_int_t)scene->parts, "elements",
+                  (json_int_t)r->elements, "leaves", (json_int_t)r->leaves);
     json_t *replaced = json_array();
     for (int i = 0; i < s->options->replacement_count; i++)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));

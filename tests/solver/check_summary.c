@@ -11,13 +11,14 @@
 
 /* A made-up report, for shipped oracles settle. */
 static struct RadReport report;
+static struct RadSceneReport scene_report;
 static struct measured measured;
 
 /* Prints the summary into `text`; returns its JSON, which the caller frees. */
 static json_t *summarise(char *text, size_t size)
 {
     struct options options = {.scene = "made up", .threads = 1};
-    struct open_scene scene = {0};
+    struct open_scene scene = {.report = scene_report};
     struct solved solved = {.report = report};
     RadDevice device = radNewDevice(NULL);
     ck_assert_ptr_nonnull(device);
@@ -48,6 +49,23 @@ static json_t *summarise(char *text, size_t size)
     radReleaseDevice(device);
     return json;
 }
+
+/* Counts that 31 bits do not hold are what they are. */
+START_TEST(test_large_counts)
+{
+    static const char *const names[] = {"faces", "faces_cut", "faces_cut_into", "elements",
+                                        "leaves"};
+    char text[4096];
+    report = (struct RadReport){.passes = 1, .elements = 3000000003, .leaves = 3000000004};
+    scene_report =
+        (struct RadSceneReport){.polygons = 3000000000, .cut = 3000000001, .parts = 3000000002};
+    json_t *json = summarise(text, sizeof text);
+    for (int i = 0; i < 5; i++)
+        ck_assert_int_eq(json_integer_value(json_object_get(json, names[i])), 3000000000 + i);
+    scene_report = (struct RadSceneReport){0};
+    json_decref(json);
+}
+END_TEST
 
 /* Links change at the end of the last pass, though the iteration reached its tolerance: more of it
  * would not help. */
@@ -197,6 +215,7 @@ int main(void)
 {
     Suite *suite = suite_create("summary");
     TCase *c = tcase_create("converged");
+    tcase_add_test(c, test_large_counts);
     tcase_add_test(c, test_links_change);
     tcase_add_test(c, test_iteration_ends);
     tcase_add_test(c, test_converged);
