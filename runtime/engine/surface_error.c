@@ -23,7 +23,8 @@
 #define SHARE_FIRST 0.15
 #define SHARE_SECOND 0.50
 
-enum { FIRST_COSINE = 8, FIRST_LIGHT = 4 };
+/* STAGE_PAIRS: of points, of a density at the most, so that all are counted. */
+enum { FIRST_COSINE = 8, FIRST_LIGHT = 4, STAGE_PAIRS = 1 << 28 };
 
 static const double first_of[PLACES] = {0.3, 0.3, 0.4, 0},
                     second_of[PLACES] = {0.15, 0.2, 0.25, 0.4};
@@ -127,7 +128,8 @@ static int measure_stage(struct measurement *m, struct stage *stage, double n,
                          const double share[PLACES], uint64_t stream)
 {
     for (int c = 0; c < PLACES; c++)
-        stage->from[c + 1] = stage->from[c] + 2 * (uint32_t)ceil(n * share[c] / 2);
+        stage->from[c + 1] =
+            stage->from[c] + 2 * (uint32_t)fmin(ceil(n * share[c] / 2), STAGE_PAIRS);
     stage->count = stage->from[PLACES];
     stage->point = malloc(stage->count * sizeof *stage->point);
     if (ranks_any(m->tracer->ranks, !stage->point))
