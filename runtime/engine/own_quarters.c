@@ -84,7 +84,8 @@ static int tell_trees(struct sharing *x)
         failed = ranks_any(x->ranks, !x->byte);
     }
     if (!failed) {
-        memcpy(x->byte + x->first[me], b.byte, (b.count + 7) / 8);
+        if (b.count)
+            memcpy(x->byte + x->first[me], b.byte, (b.count + 7) / 8);
         ranks_complete(x->ranks, RANKS_VALUES, x->byte, 1, x->first);
     }
     free(b.byte);
