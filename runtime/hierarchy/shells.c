@@ -19,6 +19,7 @@
 #include "geometry.h"
 #include "hierarchy/bvh.h"
 #include "hierarchy/hierarchy.h"
+#include "hierarchy/vector_hash.h"
 #include "kernel/constants.h"
 
 /* A step along a polygon's outline, kept at the smaller of its two places. */
@@ -66,14 +67,6 @@ static int two_sided(const struct shells *s, uint32_t polygon)
     return s->materials[s->polygons->materials ? s->polygons->materials[polygon] : 0].two_sided;
 }
 
-static int same_place(const double a[3], const double b[3])
-{
-    for (int k = 0; k < 3; k++)
-        if (a[k] < b[k] || a[k] > b[k])
-            return 0;
-    return 1;
-}
-
 /* Equal positions are one place, the first of them. Returns 0 or -1. */
 static int find_places(struct shells *s)
 {
@@ -85,18 +78,10 @@ static int find_places(struct shells *s)
         return -1;
     memset(table, 0xff, slots * sizeof *table);
     for (size_t i = 0; i < n; i++) {
-        uint64_t hash = 0;
-        double p[3];
-        for (int k = 0; k < 3; k++) {
-            uint64_t bits;
-            p[k] = s->polygons->positions[3 * i + (size_t)k] + 0.0; /* -0 is 0 */
-            memcpy(&bits, &p[k], sizeof bits);
-            hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
-            hash ^= hash >> 32;
-        }
-        size_t slot = hash & (slots - 1);
+        const double *p = &s->polygons->positions[3 * i];
+        size_t slot = vector_hash(p) & (slots - 1);
         while (table[slot] != UINT32_MAX
-               && !same_place(&s->polygons->positions[3 * (size_t)table[slot]], p))
+               && !vectors_equal(&s->polygons->positions[3 * (size_t)table[slot]], p))
             slot = (slot + 1) & (slots - 1);
         if (table[slot] == UINT32_MAX)
             table[slot] = (uint32_t)i;

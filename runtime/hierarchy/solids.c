@@ -14,7 +14,7 @@
 #include <string.h>
 #include "hierarchy/solids.h"
 #include "hierarchy/reach.h"
-#include "kernel/hash.h"
+#include "hierarchy/vector_hash.h"
 
 /* Of how far the solid's corners are from where coordinates begin: outlines of groups are computed;
  * chosen. */
@@ -159,20 +159,11 @@ static uint32_t gather(struct solids *s, const struct hierarchy *h, uint32_t ind
     return s->of[index] = all;
 }
 
-/* Where a normal's faces are kept from on, of so many places, a power of two. */
-static uint32_t place_of(const double n[3], uint32_t places)
-{
-    uint64_t digits[3];
-    memcpy(digits, n, sizeof digits);
-    return (uint32_t)hash64(hash64(hash64(digits[0]) + digits[1]) + digits[2]) & (places - 1);
-}
-
 /* The place of a face with this normal; one that is free, if there is none. */
 static uint32_t find(const struct solids *s, const struct hierarchy *h, const double n[3])
 {
-    uint32_t at = place_of(n, s->places);
-    while (s->by_normal[at]
-           && memcmp(h->elements[s->by_normal[at] - 1].normal, n, 3 * sizeof *n) != 0)
+    uint32_t at = (uint32_t)vector_hash(n) & (s->places - 1);
+    while (s->by_normal[at] && !vectors_equal(h->elements[s->by_normal[at] - 1].normal, n))
         at = (at + 1) & (s->places - 1);
     return at;
 }

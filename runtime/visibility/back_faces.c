@@ -8,24 +8,12 @@
 #include "visibility/back_faces.h"
 #include <stdlib.h>
 #include <string.h>
-#include "kernel/hash.h"
+#include "hierarchy/vector_hash.h"
 
 struct stand {
     uint64_t key;
     uint32_t face;
 };
-
-static uint64_t corner_key(const double v[3])
-{
-    uint64_t key = 0;
-    for (int k = 0; k < 3; k++) {
-        double x = v[k] + 0.0; /* -0 is 0 */
-        uint64_t bits;
-        memcpy(&bits, &x, sizeof bits);
-        key = hash64(key + bits + HASH_STEP);
-    }
-    return key;
-}
 
 static int by_key(const void *a, const void *b)
 {
@@ -67,7 +55,7 @@ int back_faces_find(const struct hierarchy *h, uint32_t *behind)
             continue;
         uint64_t key = 0;
         for (uint32_t j = 0; j < f->vertices; j++)
-            key += corner_key(f->vertex[j]);
+            key += vector_hash(f->vertex[j]);
         stands[count++] = (struct stand){key, i};
     }
     qsort(stands, count, sizeof *stands, by_key);

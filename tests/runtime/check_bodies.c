@@ -512,6 +512,34 @@ START_TEST(test_great)
 }
 END_TEST
 
+/* What a solid is behind does not depend on the sign of a zero in a normal. */
+START_TEST(test_zeros)
+{
+    enum { TILES = 8 };
+    struct scene s;
+    made_open(&s);
+    made_material(&s, 0.5, 0);
+    for (int face = 0; face < 6; face++)
+        for (int i = 0; i < TILES * TILES; i++)
+            made_tile(&s, 0, 0, face, i, TILES, 0);
+    struct exchange_tree t;
+    const char *cause;
+    ck_assert_int_eq(exchange_tree_open(&t, s.faces, s.face_count, 1, &cause), 0);
+    ck_assert_uint_eq(t.solids.count, 1);
+    for (int face = 0; face < 6; face++)
+        for (int signs = 0; signs < 8; signs++) {
+            const struct element *e = &t.h.elements[t.h.face_element[face * TILES * TILES]];
+            double n[3];
+            for (int k = 0; k < 3; k++)
+                n[k] = fabs(e->normal[k]) > 0.5 ? e->normal[k] : signs >> k & 1 ? -0.0 : 0.0;
+            ck_assert_uint_eq(
+                solids_behind(&t.solids, &t.h, n, (const double(*)[3])e->vertex, 4, 1e-6), 1);
+        }
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("bodies");
@@ -530,5 +558,6 @@ int main(void)
     tcase_add_test(tests, test_which);
     tcase_add_test(tests, test_rounded);
     tcase_add_loop_test(tests, test_horizon, 0, 2);
+    tcase_add_test(tests, test_zeros);
     return suite_failures(suite);
 }
