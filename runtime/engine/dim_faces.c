@@ -37,6 +37,7 @@
 #include "engine/reflected_light.h"
 #include "hierarchy/children_first.h"
 #include "kernel/constants.h"
+#include "util/array.h"
 
 enum {
     RAYS_OF_PATH = 4, /* about, before any is traced */
@@ -342,12 +343,6 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     return changed;
 }
 
-static int by_number(const void *a, const void *b)
-{
-    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return (x > y) - (x < y);
-}
-
 void dim_count_add(struct dim_count *to, const struct dim_count *c)
 {
     for (uint32_t i = 0; i < c->unsure && to->unsure + i < RAD_UNSURE_NAMED; i++)
@@ -355,5 +350,5 @@ void dim_count_add(struct dim_count *to, const struct dim_count *c)
     to->large += c->large;
     to->unsure += c->unsure;
     const size_t named = to->unsure < RAD_UNSURE_NAMED ? to->unsure : RAD_UNSURE_NAMED;
-    qsort(to->named, named, sizeof *to->named, by_number);
+    qsort(to->named, named, sizeof *to->named, compare_words);
 }

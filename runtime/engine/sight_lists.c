@@ -7,17 +7,12 @@
 #include <stdlib.h>
 #include "engine/sight_lists.h"
 #include "kernel/shaft.h"
+#include "util/array.h"
 #include "visibility/candidates.h"
-
-static int compare_faces(const void *a, const void *b)
-{
-    const uint32_t *x = a, *y = b;
-    return *x < *y ? -1 : *x > *y;
-}
 
 void sight_list_sort(uint32_t *faces, int count)
 {
-    qsort(faces, (size_t)count, sizeof *faces, compare_faces);
+    qsort(faces, (size_t)count, sizeof *faces, compare_words);
 }
 
 int sight_list_near(const struct sight_list *list, const struct exchange_tree *t,

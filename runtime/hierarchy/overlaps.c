@@ -35,8 +35,9 @@ struct sheet {
 
 /* What becomes of a face that is covered. */
 struct loss {
-    uint32_t face, on; /* what it lies on; of several that cover a part each the first by rank */
-    double area;       /* m2, of both sides */
+    uint32_t face; /* first: losses are sorted by it */
+    uint32_t on;   /* what it lies on; of several that cover a part each the first by rank */
+    double area;   /* m2, of both sides */
     size_t first, count;
     const struct finder *by;
 };
@@ -263,19 +264,13 @@ static int take_face(struct finder *f, struct bare_parts *bare, uint32_t i)
 
 /* ---- all faces */
 
-static int by_face(const void *a, const void *b)
-{
-    const struct loss *x = a, *y = b;
-    return (x->face > y->face) - (x->face < y->face);
-}
-
 /* The face that a loss is told to lie on. One that covers it wholly may be covered wholly itself;
  * what covers that ranks before it, so the way ends, and covers this as well. */
 static uint32_t stays_on(const struct loss *losses, size_t count, const struct loss *x)
 {
     for (const struct loss *on = x; on && !on->count;) {
         const struct loss key = {.face = x->on};
-        on = bsearch(&key, losses, count, sizeof *losses, by_face);
+        on = bsearch(&key, losses, count, sizeof *losses, compare_words);
         x = on && !on->count ? on : x;
     }
     return x->on;
@@ -347,7 +342,7 @@ static int replace_all(struct scene *scene, const struct finder *finders, int th
     for (int t = 0; t < threads; t++)
         for (size_t i = 0; i < finders[t].loss_count; i++)
             all[n++] = finders[t].losses[i];
-    qsort(all, n, sizeof *all, by_face);
+    qsort(all, n, sizeof *all, compare_words);
     const int result = put_rests(scene, all, n);
     free(all);
     return result;

@@ -5,11 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int by_face(const void *a, const void *b)
-{
-    const struct replacement *x = a, *y = b;
-    return (x->face > y->face) - (x->face < y->face);
-}
+#include "util/array.h"
 
 int replace_faces(struct scene *scene, struct replacement *list, size_t count)
 {
@@ -19,7 +15,7 @@ int replace_faces(struct scene *scene, struct replacement *list, size_t count)
     struct face *faces = most <= UINT32_MAX ? malloc((most + 1) * sizeof *faces) : NULL;
     if (!faces)
         return -1;
-    qsort(list, count, sizeof *list, by_face);
+    qsort(list, count, sizeof *list, compare_words);
     uint32_t n = 0;
     for (uint32_t i = 0; i < scene->face_count; i++) {
         const struct replacement *x = &list[next];

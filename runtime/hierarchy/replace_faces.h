@@ -8,7 +8,7 @@
 /* What stands for a face, and for its far side if it is the front of a pair; none where count is 0.
  */
 struct replacement {
-    uint32_t face;
+    uint32_t face; /* first: replacements are sorted by it */
     size_t count;
     const struct face *by; /* [count], borrowed */
 };

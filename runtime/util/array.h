@@ -41,4 +41,11 @@ static inline int compare_numbers(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
+/* The same of words, or of structs that begin with one. */
+static inline int compare_words(const void *a, const void *b)
+{
+    const uint32_t *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
 #endif
