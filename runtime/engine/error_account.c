@@ -191,15 +191,6 @@ static void find_reflected(struct error_account *a, double *x)
     a->report->reflected = account_norms(a, x, 0);
 }
 
-/* The operator as the links are now: the last pass may have changed them after the last solve, and
- * slopes have rows of their own. */
-static int renew_operator(struct solve *s, struct row_report *rows)
-{
-    if (s->report.changing == 0 && !s->linear.gradient)
-        return 0;
-    return row_sums_renew(&s->operator, rows);
-}
-
 /* ---- constants in place of slopes */
 
 /* What a solution with slopes is given back. */
@@ -278,7 +269,8 @@ static int make(struct error_account *a)
     a->factor = a->left + bands * count;
     a->most = a->factor + bands * count;
     a->spread = a->most + count;
-    int failed = renew_operator(s, &rows) < 0 || (s->linear.gradient && solve_constants(s) < 0);
+    int failed =
+        solve_renew_operator(s, &rows) < 0 || (s->linear.gradient && solve_constants(s) < 0);
     if (!failed) {
         separable_links_send(&s->operator.separable, (int)bands, s->state.radiosity);
         find_spread(a);

@@ -312,14 +312,6 @@ static int walk_all(struct causes *c, struct cause_sums *sums)
 
 /* ---- what it takes */
 
-/* Where the last pass has changed links, the operator is that of the links before. Returns 0 or -1.
- */
-static int renew_operator(struct solve *s)
-{
-    struct row_report rows;
-    return s->report.changing == 0 ? 0 : row_sums_renew(&s->operator, & rows);
-}
-
 /* K B into c->gathered, by a sweep of Jacobi's over copies; J of a radiosity of 1 before. Returns 0
  * or -1. */
 static int gather_all(struct causes *c)
@@ -374,7 +366,8 @@ int error_causes_find(struct solve *s, uint64_t rays, uint64_t stream,
     struct causes c = {.solve = s};
     struct cause_sums sums = {0};
     *report = (struct RadCausesReport){.rays = 0};
-    int failed = renew_operator(s) < 0 || gather_all(&c) < 0 || open_rays(&c) < 0
+    struct row_report rows;
+    int failed = solve_renew_operator(s, &rows) < 0 || gather_all(&c) < 0 || open_rays(&c) < 0
                  || cause_line_open(&c.line, s, stream) < 0;
     if (!failed) {
         report->reflected = c.line.reflected;

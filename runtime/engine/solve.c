@@ -430,6 +430,13 @@ int solve_begin(struct solve *s, const struct refiner *refiner, const char **cau
     return 0;
 }
 
+int solve_renew_operator(struct solve *s, struct row_report *rows)
+{
+    if (s->report.changing == 0 && !s->linear.gradient)
+        return 0;
+    return row_sums_renew(&s->operator, rows);
+}
+
 int solve_recount(struct solve *s)
 {
     sum_counts(s);

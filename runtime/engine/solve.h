@@ -105,6 +105,10 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
 /* What comes before the first refinement. Returns 0, or -1 with *cause set. */
 int solve_begin(struct solve *s, const struct refiner *refiner, const char **cause);
 
+/* The operator as the links are now: the last pass may have changed them after the last solve, and
+ * slopes have rows of their own. *rows is set where it has been made anew. Returns 0 or -1. */
+int solve_renew_operator(struct solve *s, struct row_report *rows);
+
 /* What follows from links that are new: counts, and form factors by collocation. Returns 0 or -1.
  */
 int solve_recount(struct solve *s);
