@@ -278,7 +278,8 @@
  * its last links) */
 #define SOLVE_TOLERANCE_MOST 1e-3
 /* extrapolation.h: ratios of changes above which sweeps are slow; how far two may be apart, as a
- * share of what they lack of 1; sweeps in a row. Chosen: below .97 a digit takes 76 sweeps at most */
+ * share of what they lack of 1; sweeps in a row. Chosen: below .97 a digit takes 76 sweeps at the
+ * most */
 #define EXTRAPOLATION_SLOW 0.97
 #define EXTRAPOLATION_NEAR 0.3
 #define EXTRAPOLATION_STEADY 4
