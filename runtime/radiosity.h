@@ -395,7 +395,7 @@ enum RadClosure {
 
 /* How the equations that the links stand for are solved; all to the same answer. */
 enum RadSolver {
-    RAD_SOLVER_GAUSS_SEIDEL, /* in blocks of faces */
+    RAD_SOLVER_GAUSS_SEIDEL, /* in blocks of faces; of slow sweeps the limit is guessed */
     RAD_SOLVER_JACOBI,
     /* progressive shooting: the most unshot power first. A solve that `iterations` cut short has
      * the ambient estimate of Cohen et al. 1988 added; no other is changed by it */

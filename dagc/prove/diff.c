@@ -182,10 +182,10 @@ static struct known known_at(const struct side *side, const struct node *node, i
 /* What an answer depends on: the terms that the arguments read, then those of the tool. */
 static uint64_t hash_reads(const struct side *side, const struct node *node, uint64_t reader)
 {
-    const struct span needs[] = {node->reads, side->dag->tools[node->tool].reads};
+    const struct span *const needs[] = {&node->reads, &side->dag->tools[node->tool].reads};
     uint64_t hash = 5;
     for (int k = 0; k < 2; k++)
-        for (int i = needs[k].first; i < needs[k].first + needs[k].count; i++) {
+        for (int i = needs[k]->first; i < needs[k]->first + needs[k]->count; i++) {
             struct known known = known_at(side, node, side->dag->needs[i].term, reader);
             hash = mix(mix(hash, known.history), known.level);
         }
@@ -526,9 +526,9 @@ static void follow_arc(struct walk *walk, int s, const struct asked *asked)
     const struct dag *dag = side->dag;
     const struct node *node = &dag->nodes[side->at.index];
     const struct tool *tool = &dag->tools[node->tool];
-    const struct span needs[] = {node->reads, tool->reads};
+    const struct span *const needs[] = {&node->reads, &tool->reads};
     for (int k = 0; k < 2; k++)
-        for (int i = needs[k].first; i < needs[k].first + needs[k].count; i++) {
+        for (int i = needs[k]->first; i < needs[k]->first + needs[k]->count; i++) {
             int term = dag->needs[i].term;
             set_known(walk, s, term, known_at(side, node, term, changer(asked, READS)));
         }

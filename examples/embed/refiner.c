@@ -563,10 +563,12 @@
  * estimate's excess in random pairs (clear_points.h), which is the next */
 #define REFINER_CLEAR_POINTS_NEAR 1.5
 #define REFINER_CLEAR_POINTS_REST 5.0
-/* of host.ray_offset. So far off their faces points look past others, whose planes they would lie
- * in else: 2^18 times what coordinates lose by rounding. Chosen; a shade is moved by it as far as
- * it is to how far off its face a blocker is */
+/* How far off their faces points look past others, whose planes they would lie in else: this of
+ * host.ray_offset, 2^18 times what coordinates lose by rounding, or so many misfits (misfit.h), but
+ * no more than rays are. Chosen; a shade is moved by it as far as it is to how far off its face a
+ * blocker is */
 #define REFINER_SIGHT_LIFT 0x1p-16
+#define REFINER_SIGHT_MISFITS 8.0
 /* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
 #define REFINER_SIGHT_FLOOR 1e-4
 /* polygons. In larger scenes it is a share of so much over the root of the number of faces: errors

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_tree.h"
+#include "hierarchy/misfit.h"
 #include "util/array.h"
 #include "visibility/candidates.h"
 #include "visibility/hidden.h"
@@ -103,7 +104,8 @@ static double near_share(const struct face *faces, uint32_t count)
 int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count,
                        int threads, const char **cause)
 {
-    double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black);
+    double misfit, *unit = malloc(face_count * sizeof *unit),
+                   *black = calloc(face_count, sizeof *black);
     memset(t, 0, sizeof *t);
     *cause = "out of memory";
     if (!unit || !black || face_count > UINT32_MAX / 16
@@ -119,12 +121,14 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
     if (!(share > 0)
         || hierarchy_build_groups(&t->h, &t->plain, share * rays_host(t->rays)->flat) < 0
         || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0
-        || solids_open(&t->solids, &t->h, &t->mates) < 0)
+        || solids_open(&t->solids, &t->h, &t->mates) < 0
+        || misfit_find(&t->h, &t->bodies, &misfit) < 0)
         goto fail;
     t->host = *rays_host(t->rays);
     t->host.ray_offset *= share;
     t->host.flat *= share;
-    t->lift = SIGHT_LIFT * t->host.ray_offset;
+    t->lift =
+        fmin(fmax(SIGHT_LIFT * t->host.ray_offset, SIGHT_MISFITS * misfit), t->host.ray_offset);
     t->host.occluded = occluded;
     t->host.candidates = candidates;
     t->host.corners = corners;

@@ -310,6 +310,7 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     double *room = malloc((shares_room(&op->shares) * 3 * m->bands + 1) * sizeof *room);
     double rho = 0, least = INFINITY;
     int stopped = 0, grows = 0;
+    const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI;
     const size_t values = (size_t)op->hierarchy->count * m->bands;
     struct extrapolation guess = {NULL}, slopes = {NULL};
     if (ranks_any(op->shares.ranks, !change || !room)) {
@@ -332,7 +333,7 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
         least = fmin(least, m->bound);
         stopped = m->watch && m->watch(m->watch_context, m);
         grows = !l->limited && !(m->bound <= LINEAR_GROWS * least);
-        const double factor = extrapolation_factor(&guess, m->residual);
+        const double factor = jacobi ? 0 : extrapolation_factor(&guess, m->residual);
         if (factor > 0 && !m->converged) {
             extrapolation_add(&guess, factor, m->value, values);
             extrapolation_add(&slopes, factor, x->value, 3 * values);

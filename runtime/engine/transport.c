@@ -26,7 +26,7 @@
  * largest reflectance, of the change before; Southwell's by its ambient estimate, in which what is
  * unshot goes on among all surfaces and rho is their mean.
  *
- * Where sweeps are slow the limit is guessed from time to time (extrapolation.h).
+ * Where Gauss-Seidel's sweeps are slow the limit is guessed from time to time (extrapolation.h).
  *
  * How far down. What groups send is summed in single precision, so a change too small to see may
  * turn a last digit, and that change turn it back a sweep later: for ever, at a bound that falls no
@@ -175,7 +175,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     while (x->sweeps < most && !x->converged && !stopped) {
         if (shooter)
             southwell_keep(shooter, op, x);
-        else
+        if (!jacobi)
             extrapolation_keep(&guess, x->value, values);
         transport_sweep(op, x, jacobi, change, room);
         measure(op, x, change);
@@ -183,7 +183,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
         double left = left_of(op, x, rho);
         x->converged = left <= 1 || (!x->rough && stalled(op, x, &least, &since));
         stopped = x->watch && x->watch(x->watch_context, x);
-        const double factor = shooter ? 0 : extrapolation_factor(&guess, x->residual);
+        const double factor = jacobi ? 0 : extrapolation_factor(&guess, x->residual);
         if (factor > 0 && !x->converged) {
             extrapolation_add(&guess, factor, x->value, values);
             shares_tell_groups(&op->shares, x->value, x->bands, room);

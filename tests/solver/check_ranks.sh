@@ -354,4 +354,49 @@ lacks surface_error_measure solve "$cube" --errors
 lacks tracer_open reference "$cube" -o r.csv --accuracy 5%
 lacks face_paths_open reference "$cube" -o r.csv --accuracy 5%
 
+# ---- ranks that have less memory than they ask for: all have the limits of the one with least, meet them together, and end or go
+# on as one process does; and one that cannot write what all have made
+cat >less.c <<'END'
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+int getrlimit(__rlimit_resource_t what, struct rlimit *is)
+{
+    int (*asked)(__rlimit_resource_t, struct rlimit *) = (int (*)(__rlimit_resource_t, struct rlimit *))dlsym(RTLD_NEXT, "getrlimit");
+    const char *rank = getenv("OMPI_COMM_WORLD_RANK"), *only = getenv("LESS_RANK"), *bytes = getenv("LESS_BYTES");
+    int status = asked(what, is);
+    if (what == RLIMIT_AS && bytes && !(only && *only && rank && strcmp(rank, only)))
+        is->rlim_cur = strtoul(bytes, NULL, 10);
+    return status;
+}
+END
+if ! cc -O1 -shared -fPIC -o less.so less.c -ldl || [ "$(LD_PRELOAD=$tmp/less.so "$radiosity" --version 2>&1)" != "$("$radiosity" --version)" ]; then
+    echo "skipped: ranks with less memory: this command cannot be given another getrlimit"
+else
+    less() { # RANKS BYTES RANK ARGUMENTS...: that rank has so little, or all when "" is given
+        timeout -k 5 60 mpirun -n "$1" -x LD_PRELOAD="$tmp/less.so" -x LESS_BYTES="$2" -x LESS_RANK="$3" "$radiosity" "${@:4}" \
+            --threads 1 >out 2>err
+    }
+    for ranks in 1 2; do
+        less $ranks 500000 "" solve "$cornell" --no-errors --no-correct
+        status=$?
+        check "$ranks ranks with little memory: status $status, $(head -n 3 err)" [ $status = 0 ]
+        check "$ranks ranks with little memory have links" grep -q '^links *none' out err
+    done
+    began=$SECONDS
+    less 2 5000 1 viewfactors "$scenes/maze_8.obj" -q -o f.csv
+    status=$?
+    check "a rank with less memory than the other: status $status, $(head -n 3 err)" [ $status = 1 ]
+    check "a rank with less memory: the other waited for $((SECONDS - began)) s" [ $((SECONDS - began)) -lt 8 ]
+    check "a rank with less memory: $(cat err)" [ "$(grep -c 'refinement for view factors does not end' err)" = 1 ]
+fi
+began=$SECONDS
+several 2 "$radiosity" viewfactors "$cornell" -q -o /dev/full >said 2>&1
+status=$?
+check "a matrix that cannot be written: status $status, $(cat said)" [ $status = 1 -a "$(grep -c 'error:' said)" = 1 ]
+check "a matrix that cannot be written: the others waited for $((SECONDS - began)) s" [ $((SECONDS - began)) -lt 8 ]
+
 finish ranks
