@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 #include "engine/exchange.h"
+#include "engine/exchange_tree.h"
+#include "kernel/constants.h"
 #include "util/oracles.h"
 #include "scene/make_scene.h"
 #include "runtime/make_polygons.h"
@@ -89,6 +91,44 @@ START_TEST(test_far_face)
         printf("beside a face %g m away %.7f, right: %.7f\n", x, f[1], right);
         ck_assert_double_eq_tol(f[1], right, 1e-4 * right);
     }
+}
+END_TEST
+
+/* How far off their faces points look from, of a floor of 2 x 2 m and a box on it that is so much
+ * too high (m). */
+static double lift_of(double high, double *rays)
+{
+    const double o = 0.5, p = 1.25, z[2] = {high, high + 0.5};
+    const double quad[6][4][3] = {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}},
+                                  {{o, o, z[1]}, {p, o, z[1]}, {p, p, z[1]}, {o, p, z[1]}},
+                                  {{o, o, z[0]}, {p, o, z[0]}, {p, o, z[1]}, {o, o, z[1]}},
+                                  {{p, o, z[0]}, {p, p, z[0]}, {p, p, z[1]}, {p, o, z[1]}},
+                                  {{p, p, z[0]}, {o, p, z[0]}, {o, p, z[1]}, {p, p, z[1]}},
+                                  {{o, p, z[0]}, {o, o, z[0]}, {o, o, z[1]}, {o, p, z[1]}}};
+    struct scene made;
+    struct exchange_tree tree;
+    const char *cause;
+    made_open(&made);
+    made_material(&made, 0.5, 0);
+    for (int i = 0; i < 6; i++)
+        made_face(&made, 0, 4, quad[i]);
+    ck_assert_int_eq(exchange_tree_open(&tree, made.faces, made.face_count, 1, &cause), 0);
+    const double lift = tree.lift;
+    *rays = tree.host.ray_offset;
+    exchange_tree_close(&tree);
+    made_close(&made);
+    return lift;
+}
+
+/* A box that stands as exactly as doubles say, one off by the last of seven digits, and one that
+ * hovers. */
+START_TEST(test_misfit)
+{
+    double rays;
+    ck_assert_double_eq_tol(lift_of(0, &rays) / rays, SIGHT_LIFT, 1e-12);
+    ck_assert_double_eq_tol(lift_of(1e-7, &rays), SIGHT_MISFITS * 1e-7, 1e-12);
+    ck_assert_double_eq_tol(lift_of(-1e-7, &rays), SIGHT_MISFITS * 1e-7, 1e-12);
+    ck_assert_double_eq_tol(lift_of(1e-2, &rays) / rays, SIGHT_LIFT, 1e-12);
 }
 END_TEST
 
@@ -348,6 +388,7 @@ int main(void)
     tcase_set_timeout(tests, 60);
     suite_add_tcase(suite, tests);
     tcase_add_test(tests, test_far_face);
+    tcase_add_test(tests, test_misfit);
     tcase_add_test(tests, test_crossing_planes);
     tcase_add_test(tests, test_small_shades);
     tcase_add_test(tests, test_touching);
