@@ -312,7 +312,7 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     int stopped = 0, grows = 0;
     const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI;
     const size_t values = (size_t)op->hierarchy->count * m->bands;
-    struct extrapolation guess = {NULL}, slopes = {NULL};
+    struct extrapolation guess = {.before = NULL}, slopes = {.before = NULL};
     if (ranks_any(op->shares.ranks, !change || !room)) {
         free(change);
         free(room);

@@ -169,7 +169,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     const int most = op->problem->options.iterations;
     const double rho = reflects(op, x);
     const size_t values = (size_t)op->hierarchy->count * x->bands;
-    struct extrapolation guess = {NULL};
+    struct extrapolation guess = {.before = NULL};
     double least = INFINITY;
     int since = 0, stopped = 0;
     while (x->sweeps < most && !x->converged && !stopped) {
