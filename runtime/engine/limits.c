@@ -60,9 +60,7 @@ static double memory_there(void)
             there = 1024 * kilobytes;
     if (info)
         (void)fclose(info);
-    const double container = number_in("/sys/fs/cgroup/memory.max", INFINITY)
-                             - number_in("/sys/fs/cgroup/memory.current", 0);
-    there = fmax(fmin(there, container), 0);
+    there = fmin(there, number_in("/sys/fs/cgroup/memory.max", INFINITY)); /* "max": none */
     if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY
         && (double)space.rlim_cur < there)
         there = (double)space.rlim_cur;
