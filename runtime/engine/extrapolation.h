@@ -16,26 +16,30 @@
 
 #include "kernel/constants.h"
 
+/* Of what is guessed: means, and slopes where there are any. */
+enum { GUESS_MEANS, GUESS_SLOPES, GUESSES };
+
 /* All 0 before the first sweep. */
 struct extrapolation {
-    double *before;       /* what values were before the sweep; owned, NULL: not asked for */
-    double change, ratio; /* of the last sweep, and to the one before */
-    int steady;           /* sweeps in a row whose ratio stays */
+    double *before[GUESSES]; /* what values were before the sweep; owned, NULL: not asked for */
+    double change, ratio;    /* of the last sweep, and to the one before */
+    int steady;              /* sweeps in a row whose ratio stays */
 };
 
-/* Before a sweep: values are kept where a guess is near. Out of memory there is none. */
-static inline void extrapolation_keep(struct extrapolation *g, const double *value, size_t count)
+/* Before a sweep: values are kept where a guess is near. Out of memory they are not guessed. */
+static inline void extrapolation_keep(struct extrapolation *g, int what, const double *value,
+                                      size_t count)
 {
     if (g->steady + 1 < EXTRAPOLATION_STEADY)
         return;
-    if (!g->before)
-        g->before = malloc(count * sizeof *g->before);
-    if (g->before)
-        memcpy(g->before, value, count * sizeof *g->before);
+    if (!g->before[what])
+        g->before[what] = malloc(count * sizeof *value);
+    if (g->before[what])
+        memcpy(g->before[what], value, count * sizeof *value);
 }
 
 /* After a sweep that has changed so much of all, any norm: by which factor is the change to be
- * added to what there is? 0: it is not. */
+ * added to what there is? 0: it is not. Then the next ratios are of other modes. */
 static inline double extrapolation_factor(struct extrapolation *g, double change)
 {
     const double ratio = g->change > 0 ? change / g->change : 0;
@@ -44,23 +48,25 @@ static inline double extrapolation_factor(struct extrapolation *g, double change
     g->steady = stays ? g->steady + 1 : 0;
     g->change = change;
     g->ratio = ratio;
-    return g->steady >= EXTRAPOLATION_STEADY ? ratio / (1 - ratio) : 0;
-}
-
-/* Add it; the next ratios are of other modes. */
-static inline void extrapolation_add(struct extrapolation *g, double factor, double *value,
-                                     size_t count)
-{
-    for (size_t i = 0; i < count && g->before; i++)
-        value[i] += factor * (value[i] - g->before[i]);
+    if (g->steady < EXTRAPOLATION_STEADY)
+        return 0;
     g->steady = 0;
     g->change = 0;
+    return ratio / (1 - ratio);
+}
+
+static inline void extrapolation_add(const struct extrapolation *g, int what, double factor,
+                                     double *value, size_t count)
+{
+    const double *before = g->before[what];
+    for (size_t i = 0; i < count && before; i++)
+        value[i] += factor * (value[i] - before[i]);
 }
 
 static inline void extrapolation_close(struct extrapolation *g)
 {
-    free(g->before);
-    g->before = NULL;
+    for (int what = 0; what < GUESSES; what++)
+        free(g->before[what]);
 }
 
 #endif

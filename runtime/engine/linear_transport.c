@@ -13,12 +13,12 @@
  * norm is below 1 in the maximum norm, on functions that have their extremes at corners: sweeps
  * converge whatever the oracle has done.
  * SPDX-License-Identifier: MIT */
-#include "engine/extrapolation.h"
 #include "engine/linear_transport.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/extrapolation.h"
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
@@ -312,7 +312,7 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     int stopped = 0, grows = 0;
     const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI;
     const size_t values = (size_t)op->hierarchy->count * m->bands;
-    struct extrapolation guess = {.before = NULL}, slopes = {.before = NULL};
+    struct extrapolation guess = {.steady = 0};
     if (ranks_any(op->shares.ranks, !change || !room)) {
         free(change);
         free(room);
@@ -323,9 +323,8 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     m->converged = 0;
     for (m->sweeps = 0;
          m->sweeps < op->problem->options.iterations && !m->converged && !stopped && !grows;) {
-        slopes.steady = guess.steady;
-        extrapolation_keep(&guess, m->value, values);
-        extrapolation_keep(&slopes, x->value, 3 * values);
+        extrapolation_keep(&guess, GUESS_MEANS, m->value, values);
+        extrapolation_keep(&guess, GUESS_SLOPES, x->value, 3 * values);
         sweep(&s, change, room);
         measure(&s, change, rho);
         m->sweeps++;
@@ -335,12 +334,11 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
         grows = !l->limited && !(m->bound <= LINEAR_GROWS * least);
         const double factor = jacobi ? 0 : extrapolation_factor(&guess, m->residual);
         if (factor > 0 && !m->converged) {
-            extrapolation_add(&guess, factor, m->value, values);
-            extrapolation_add(&slopes, factor, x->value, 3 * values);
+            extrapolation_add(&guess, GUESS_MEANS, factor, m->value, values);
+            extrapolation_add(&guess, GUESS_SLOPES, factor, x->value, 3 * values);
             shares_tell_groups(&op->shares, m->value, s.bands, room);
         }
     }
-    extrapolation_close(&slopes);
     extrapolation_close(&guess);
     free(room);
     free(change);

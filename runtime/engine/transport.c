@@ -169,14 +169,14 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     const int most = op->problem->options.iterations;
     const double rho = reflects(op, x);
     const size_t values = (size_t)op->hierarchy->count * x->bands;
-    struct extrapolation guess = {.before = NULL};
+    struct extrapolation guess = {.steady = 0};
     double least = INFINITY;
     int since = 0, stopped = 0;
     while (x->sweeps < most && !x->converged && !stopped) {
         if (shooter)
             southwell_keep(shooter, op, x);
         if (!jacobi)
-            extrapolation_keep(&guess, x->value, values);
+            extrapolation_keep(&guess, GUESS_MEANS, x->value, values);
         transport_sweep(op, x, jacobi, change, room);
         measure(op, x, change);
         x->sweeps++;
@@ -185,7 +185,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
         stopped = x->watch && x->watch(x->watch_context, x);
         const double factor = jacobi ? 0 : extrapolation_factor(&guess, x->residual);
         if (factor > 0 && !x->converged) {
-            extrapolation_add(&guess, factor, x->value, values);
+            extrapolation_add(&guess, GUESS_MEANS, factor, x->value, values);
             shares_tell_groups(&op->shares, x->value, x->bands, room);
         }
         if (shooter && !x->converged && !stopped)
