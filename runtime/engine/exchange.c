@@ -74,11 +74,11 @@ static int watch_round(void *context, const struct refinement *refinement)
 static int refine(struct exchange *x, const struct refiner *refiner, struct watcher *watcher,
                   const struct exchange_aim *how)
 {
+    const struct limits limits = limits_complete((struct limits){0}, x->ranks);
     if (ranks_any(x->ranks, refinement_open(&x->refinement, &x->tree.h, &x->tree.host, refiner,
-                                            watcher->options->threads)
+                                            limits, watcher->options->threads)
                                 < 0))
         return -1;
-    x->refinement.limits = limits_complete((struct limits){0}, x->ranks);
     x->refinement.watch = watch_round;
     x->refinement.watch_context = watcher;
     x->refinement.deal = ranks_count(x->ranks) > 1 ? x->ranks : NULL;
@@ -241,8 +241,7 @@ static void ask_rows(const void *asking, size_t from, size_t to)
         }
         *way = ask_row(a->exchange, (uint32_t)i, environment_coarse);
         know_covered(way, covered, environment_coarse.side);
-        if (!is_closed(way)
-            || !(1 - a->share[i] > fmax(cell, a->options->tolerance)))
+        if (!is_closed(way) || !(1 - a->share[i] > fmax(cell, a->options->tolerance)))
             continue;
         *way = ask_row(a->exchange, (uint32_t)i, environment_fine);
         know_covered(way, covered, environment_fine.side);

@@ -65,7 +65,7 @@ void link_recall(const struct link *link, struct terms *terms)
 }
 
 int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
-                    const struct refiner *refiner, int threads)
+                    const struct refiner *refiner, struct limits limits, int threads)
 {
     memset(r, 0, sizeof *r);
     r->hierarchy = hierarchy;
@@ -73,7 +73,7 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
     r->refiner = refiner;
     r->threads = threads;
     r->built = hierarchy->count;
-    r->limits = limits_complete((struct limits){0}, NULL);
+    r->limits = limits;
     r->round = malloc(ROUND * sizeof *r->round);
     r->outcomes = malloc(ROUND * sizeof *r->outcomes);
     r->found = malloc(ROUND * sizeof *r->found); /* pages that no oracle fills cost nothing */

@@ -123,9 +123,9 @@ struct refinement {
 
 enum { REFINEMENT_ROUND = 1 << 17 }; /* pairs of a round, at the most */
 
-/* Prepare an empty refinement. Returns 0, or -1 when out of memory. */
+/* Prepare an empty refinement; limits: complete ones. Returns 0, or -1 when out of memory. */
 int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
-                    const struct refiner *refiner, int threads);
+                    const struct refiner *refiner, struct limits limits, int threads);
 
 /* Refine from the pair (root, root). Returns 0, or -1: out of memory, or `met` a limit. */
 int refinement_start(struct refinement *r);

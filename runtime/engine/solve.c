@@ -417,11 +417,12 @@ int solve_begin(struct solve *s, const struct refiner *refiner, const char **cau
         return fail(s, "out of memory", cause);
     if (error > 0)
         error_control_start(&s->error, error, &s->hierarchy, &s->inputs);
-    if (ranks_any(p->options.ranks, refinement_open(&s->refinement, &s->hierarchy,
-                                                    rays_host(p->rays), refiner, p->options.threads)
-                                        < 0))
+    const struct limits limits = limits_complete(p->options.limits, p->options.ranks);
+    if (ranks_any(p->options.ranks,
+                  refinement_open(&s->refinement, &s->hierarchy, rays_host(p->rays), refiner,
+                                  limits, p->options.threads)
+                      < 0))
         return fail(s, refining, cause);
-    s->refinement.limits = limits_complete(p->options.limits, p->options.ranks);
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
     s->refinement.trace = s->trace;

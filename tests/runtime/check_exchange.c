@@ -60,7 +60,9 @@ static double wall_to_wall(int cells, int deep)
     ck_assert_int_eq(exchange_tree_open(&tree, scene.faces, scene.face_count, 2, &cause), 0);
     const struct refiner refiner = {.refine = link_groups, .state = &deep};
     struct refinement refinement;
-    ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner, 2), 0);
+    ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner,
+                                     limits_complete((struct limits){0}, NULL), 2),
+                     0);
     ck_assert_int_eq(refinement_start(&refinement), 0);
     struct exchange_areas matrix;
     const struct exchange_aim how = {.tolerance = 3e-4, .keep = SIZE_MAX, .threads = 2};

@@ -112,7 +112,9 @@ START_TEST(test_marks)
         ck_assert_int_eq(pthread_mutex_init(&notes.lock, NULL), 0);
         const struct refiner refiner = {.refine = give_marks, .state = &n};
         struct refinement r;
-        ck_assert_int_eq(refinement_open(&r, &tree.h, &tree.host, &refiner, threads), 0);
+        ck_assert_int_eq(refinement_open(&r, &tree.h, &tree.host, &refiner,
+                                         limits_complete((struct limits){0}, NULL), threads),
+                         0);
         r.watch = look;
         r.watch_context = n;
         ck_assert_int_eq(refinement_start(&r), 0);

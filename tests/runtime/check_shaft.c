@@ -328,8 +328,10 @@ START_TEST(test_refined)
         for (uint32_t k = 0; k < now->h.count; k++)
             now->h.elements[k].radiosity = 1;
         struct refinement r;
-        ck_assert_int_eq(
-            refinement_open(&r, &now->h, rays_host(now->rays), &watched, ways[i].threads), 0);
+        ck_assert_int_eq(refinement_open(&r, &now->h, rays_host(now->rays), &watched,
+                                         limits_complete((struct limits){0}, NULL),
+                                         ways[i].threads),
+                         0);
         ck_assert_int_eq(refinement_start(&r), 0);
         ck_assert_int_gt((int)r.link_count, 10000);
         for (uint32_t k = 1; k < r.pool_count; k++)

@@ -294,7 +294,9 @@ START_TEST(test_both_ways)
             }
         ck_assert_int_ge(pairs, 2);
         uint64_t before = rays_count(w.rays).rays;
-        ck_assert_int_eq(refinement_open(&r, &w.h, w.host, &refiner, 1), 0);
+        ck_assert_int_eq(refinement_open(&r, &w.h, w.host, &refiner,
+                                         limits_complete((struct limits){0}, NULL), 1),
+                         0);
         ck_assert_int_eq(refinement_start(&r), 0);
         ck_assert_uint_eq(rays_count(w.rays).rays - before, 16 * (uint64_t)pairs);
         refinement_close(&r);
