@@ -56,7 +56,7 @@ static void mark(struct face *faces, uint32_t count, const uint8_t *dark)
     for (uint32_t i = 0; i < count; i++) {
         if (!dark[i])
             continue;
-        const uint32_t other = faces[i].back ? i - 1 : i + 1;
+        const uint32_t other = face_other_side(faces, count, i);
         faces[i].light = FACE_DARK;
         faces[i].black = 1;
         if (!dark[other])

@@ -65,11 +65,8 @@ static int add_foot(const struct covering *by, uint32_t on, uint32_t solid, doub
  * itself is. */
 static int is_other_side(const struct hierarchy *h, uint32_t index, uint32_t side)
 {
-    const uint32_t f = h->elements[index].face, other = h->faces[f].back ? f - 1
-                                                        : face_is_pair(h->faces, h->face_count, f)
-                                                            ? f + 1
-                                                            : f;
-    if (other == f || side == NO_FACE)
+    const uint32_t other = face_other_side(h->faces, h->face_count, h->elements[index].face);
+    if (other == UINT32_MAX || side == NO_FACE)
         return 0;
     const struct face_range all = h->range[side], one = h->range[h->face_element[other]];
     return one.from >= all.from && one.to <= all.to;

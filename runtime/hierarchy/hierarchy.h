@@ -37,6 +37,12 @@ static inline int face_is_pair(const struct face *faces, uint32_t count, uint32_
     return !f->back && front + 1 < count && f[1].back && f[1].input == f->input;
 }
 
+/* The other side of a face with two; UINT32_MAX: it has one. */
+static inline uint32_t face_other_side(const struct face *faces, uint32_t count, uint32_t face)
+{
+    return faces[face].back ? face - 1 : face_is_pair(faces, count, face) ? face + 1 : UINT32_MAX;
+}
+
 struct hierarchy {
     /* [count]; element 0 is the root; children of one element are neighbours */
     struct element *elements;

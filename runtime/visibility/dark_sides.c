@@ -38,10 +38,7 @@ struct search {
 /* The listed face that is a side; UINT32_MAX: the black back of a one-sided face. */
 static uint32_t face_of(const struct hierarchy *h, uint32_t side)
 {
-    uint32_t f = side / 2;
-    if (side % 2 == 0)
-        return f;
-    return face_is_pair(h->faces, h->face_count, f) ? f + 1 : UINT32_MAX;
+    return side % 2 ? face_other_side(h->faces, h->face_count, side / 2) : side / 2;
 }
 
 static int emits(const struct search *s, uint32_t side)
