@@ -55,6 +55,7 @@ struct looking {
     const struct element *from, *to;
     struct sight sight;
     struct sight_scratch *scratch;
+    struct sight_limits limits;
     int believes; /* 1: in rules that tell enough */
     int nodes, roots, heap;
     int cast;             /* of the nodes, by rays */
@@ -66,15 +67,6 @@ struct looking {
     double value, square; /* of the sum, and of its error (m2, m4) */
     double clear;         /* of the roots (m2) */
 };
-
-struct sight_limits sight_limits_for(double tolerance, uint32_t polygons, uint32_t faces)
-{
-    int few = polygons <= SIGHT_FEW_POLYGONS;
-    return (struct sight_limits){few ? SIGHT_FEW_SURE * tolerance : tolerance,
-                                 few ? SIGHT_FLOOR : SIGHT_FLOOR_MANY / sqrt(faces),
-                                 few ? SIGHT_PIECES : SIGHT_PIECES_MANY,
-                                 faces < SIGHT_LIST ? (int)faces : SIGHT_LIST, !few};
-}
 
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits)
 {
@@ -317,7 +309,7 @@ static double misjudged(const struct looking *l, const struct sight_node *node, 
     const struct sight_between *b = l->scratch->between;
     const double hidden = node->piece.area * (m.whole - m.seen);
     double sum;
-    if (!l->scratch->limits.many || !(hidden > 0))
+    if (!l->limits.many || !(hidden > 0))
         return 0;
     const double off = sight_near(&node->piece, l->tree, b->list, b->faces, &sum);
     return MISJUDGED * (hidden < sum ? off * hidden / sum : off);
@@ -387,7 +379,7 @@ static double rest_of(struct looking *l, struct sight_node *node, double *differ
 /* Are there so many pieces left? */
 static int has_room(const struct looking *l, int pieces)
 {
-    return l->nodes + l->cast * (RAYS_COUNT - 1) + pieces <= l->scratch->limits.pieces;
+    return l->nodes + l->cast * (RAYS_COUNT - 1) + pieces <= l->limits.pieces;
 }
 
 /* At most what is missed of a piece's shades, where neither its own points nor, if there are any,
@@ -525,7 +517,7 @@ static void start(struct looking *l, const double (*v)[3], int n, int all, const
 static double integrate(struct looking *l, const struct polygon *part, int all,
                         const uint32_t *list, int count, double least, double *error)
 {
-    const struct sight_limits *limits = &l->scratch->limits;
+    const struct sight_limits *limits = &l->limits;
     struct sight_node *nodes = l->scratch->nodes;
     const double(*v)[3] = (const double(*)[3])part->v;
     start(l, v, part->n < 4 ? part->n : 4, all, list, count);
@@ -667,6 +659,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
                         .joined = joins_r || joins_s,
                         .on = from_r ? on_r : on_s,
                         .scratch = scratch,
+                        .limits = sight_limits_of(&scratch->limits, t, r, s),
                         .believes = believes};
     struct polygon part, seen;
     const int all = clip_front(&part, l.from, l.to, host->flat) && stands == BETWEEN_SOME;

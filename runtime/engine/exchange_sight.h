@@ -6,16 +6,8 @@
 
 #include "engine/exchange_tree.h"
 #include "engine/face_rule.h"
+#include "engine/sight_limits.h"
 #include "engine/sight_lists.h"
-
-/* How near to come: the error of F, of itself, or of `floor` where F is smaller; with at most so
- * many pieces. */
-struct sight_limits {
-    double tolerance, floor;
-    int pieces;
-    int list; /* the most that can stand between */
-    int many; /* 1: rules that tell enough are believed */
-};
 
 /* One thread's room, for the pieces of a pair. */
 struct sight_scratch {
@@ -29,15 +21,6 @@ struct sight_scratch {
     struct sight_limits limits;
 };
 
-/* Is the error of an exchange area (m2) as small as asked for? `least`: the smaller area. */
-static inline int sight_enough(const struct sight_limits *limits, double error, double value,
-                               double least)
-{
-    return error <= limits->tolerance * fmax(value, limits->floor * least);
-}
-
-/* Limits for a scene of so many polygons, and the faces that these are cut into. */
-struct sight_limits sight_limits_for(double tolerance, uint32_t polygons, uint32_t faces);
 /* Returns 0, or -1 when out of memory; close is fine then too. */
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits);
 void sight_scratch_close(struct sight_scratch *scratch);

@@ -26,7 +26,7 @@ struct sight_between {
     struct sight_faces block[SIGHT_LIST / SIGHT_BOXED];
     struct sight_edge_block edge[SIGHT_EDGES / SIGHT_LINES];
     /* a point's: lists of edges, each shorter than the one before (sight_outlines.c) */
-    uint16_t cuts[SIGHT_EDGES * (SIGHT_EDGES + 1) / 2];
+    uint16_t cuts[SIGHT_EDGES * (SIGHT_EDGES + 3) / 2];
 };
 
 enum between { BETWEEN_NOTHING, BETWEEN_ALL, BETWEEN_SOME, BETWEEN_MANY };

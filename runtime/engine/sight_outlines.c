@@ -89,10 +89,16 @@ static int is_covered(const struct cutting *c, const struct outline_cell *cell)
     return met != 0;
 }
 
-/* Does a line run through the cell? h[]: how far the cell's corners are over it. */
-static int crosses(const struct cut_line *line, const struct outline_cell *cell, double *h)
+/* Does a line run through the cell, which lies in a box? h[]: how far the cell's corners are over
+ * it. */
+static int crosses(const struct cut_line *line, const struct outline_cell *cell,
+                   const double box[4], double *h)
 {
+    const double *p = line->end[0], *q = line->end[1];
     int over_it = 0, under_it = 0;
+    for (int k = 0; k < 2; k++)
+        if ((p[k] < box[k] && q[k] < box[k]) || (p[k] > box[2 + k] && q[k] > box[2 + k]))
+            return 0;
     for (int i = 0; i < cell->n; i++) {
         h[i] = line->a * cell->p[i][0] + line->b * cell->p[i][1] - line->c;
         over_it |= h[i] > 0;
@@ -101,14 +107,46 @@ static int crosses(const struct cut_line *line, const struct outline_cell *cell,
     return over_it && under_it && sight_runs_through(line->end[0], line->a, line->b, cell, h);
 }
 
+/* Of more lines than that, a part is halved between them first: a line of a rounded outline has
+ * all others on one side, so that cuts along one after the other look at each of them as often as
+ * there are. Measured: 200 corners take a quarter of the time, 16 as long as before. */
+enum { WORTH_HALVING = 16 };
+
+/* How far the cell's corners are past the middle of so many lines, across the way along which these
+ * are spread. Returns 0 when most would run through both halves. */
+static int halve_between(const struct cutting *c, const uint16_t *list, int n,
+                         const struct outline_cell *cell, double *h)
+{
+    double sum[2] = {0, 0}, low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    int side[2] = {0, 0};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 2; k++) {
+            const struct cut_line *line = &c->line[list[i]];
+            const double middle = 0.5 * (line->end[0][k] + line->end[1][k]);
+            sum[k] += middle;
+            low[k] = middle < low[k] ? middle : low[k];
+            high[k] = middle > high[k] ? middle : high[k];
+        }
+    const int axis = high[1] - low[1] > high[0] - low[0];
+    const double at = sum[axis] / n;
+    for (int i = 0; i < n; i++) {
+        const struct cut_line *line = &c->line[list[i]];
+        side[0] += line->end[0][axis] < at || line->end[1][axis] < at;
+        side[1] += line->end[0][axis] > at || line->end[1][axis] > at;
+    }
+    for (int i = 0; i < cell->n; i++)
+        h[i] = cell->p[i][axis] - at;
+    return 4 * side[0] <= 3 * n && 4 * side[1] <= 3 * n;
+}
+
 /* Adds what is seen of the cell, cut along the lines of a list that run through it; behind the list
  * is room for shorter ones. A part is cut by those alone that run through the whole. */
 static void add_seen(const struct cutting *c, const uint16_t *among, int count, uint16_t *list,
                      const struct outline_cell *cell)
 {
     struct outline_cell above, below;
-    double first[OUTLINE_CELL], h[OUTLINE_CELL];
-    int by = -1, n = 0;
+    double first[OUTLINE_CELL], h[OUTLINE_CELL], box[4];
+    int n = 0;
     if (cell->n < 3)
         return;
     if (cell->n > SIGHT_CELL_MOST) {
@@ -118,23 +156,22 @@ static void add_seen(const struct cutting *c, const uint16_t *among, int count, 
             add_seen(c, among, count, list, &half[k]);
         return;
     }
-    for (int k = 0; k < count; k++) {
-        if (!crosses(&c->line[among[k]], cell, by < 0 ? first : h))
-            continue;
-        if (by < 0)
-            by = among[k];
-        else
+    sight_box((const double(*)[2])cell->p, cell->n, box);
+    for (int k = 0; k < count; k++)
+        if (crosses(&c->line[among[k]], cell, box, n ? h : first))
             list[n++] = among[k];
-    }
-    if (by < 0) {
+    if (n == 0) {
         if (hides_inside(c, cell) < 0)
             sight_eye_add(c->eye, cell);
         return;
     }
-    if (n >= WORTH_A_LOOK && is_covered(c, cell))
+    if (n > WORTH_A_LOOK && is_covered(c, cell))
         return;
-    above.n = polygon_divide(&cell->p[0][0], cell->n, 2, first, OUTLINE_CELL, &above.p[0][0],
-                             &below.p[0][0], &below.n);
+    const int halved = n > WORTH_HALVING && halve_between(c, list, n, cell, h);
+    above.n = polygon_divide(&cell->p[0][0], cell->n, 2, halved ? h : first, OUTLINE_CELL,
+                             &above.p[0][0], &below.p[0][0], &below.n);
+    list += !halved; /* nothing runs along its own line */
+    n -= !halved;
     add_seen(c, list, n, list + n, &above);
     add_seen(c, list, n, list + n, &below);
 }

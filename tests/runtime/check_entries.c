@@ -233,6 +233,45 @@ START_TEST(test_crossing_faces)
 }
 END_TEST
 
+/* A floor and a round lamp over it, with a plate between. The lamp's entry is one, in many parts,
+ * and those of its rim are next to nothing; right is the sum over its quads. Lost: what a part has
+ * too much error, or too few pieces, for the whole. */
+START_TEST(test_many_corners)
+{
+    enum { CORNERS = 42, FOUR = (CORNERS - 2) / 2 };
+    static const double tolerance[] = {1e-4, 1e-5};
+    static const double floor[4][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+    double plate[4][3] = {{.7, .6, .5}, {1.2, .7, .55}, {1.1, 1.3, .6}, {.6, 1.2, .55}};
+    double v[CORNERS][3], row[3], areas[3], right = 0;
+    for (int i = 0; i < CORNERS; i++) {
+        v[i][0] = 1 + .4 * cos(-2 * M_PI * i / CORNERS);
+        v[i][1] = .9 + .35 * sin(-2 * M_PI * i / CORNERS);
+        v[i][2] = 1;
+    }
+    for (int i = 0; i < FOUR; i++) {
+        double part[4][3];
+        for (int k = 0; k < 4; k++)
+            memcpy(part[k], v[k ? 2 * i + k : 0], sizeof part[k]);
+        right += judge_factor(floor, (const double(*)[3])part, (const double(*)[3])plate, 64);
+    }
+    for (int i = 0; i < 2; i++) {
+        clear();
+        for (int k = 0; k < 4; k++)
+            corner(floor[k][0], floor[k][1], floor[k][2]);
+        end_face(4);
+        for (int k = 0; k < CORNERS; k++)
+            corner(v[k][0], v[k][1], v[k][2]);
+        end_face(CORNERS);
+        for (int k = 0; k < 4; k++)
+            corner(plate[k][0], plate[k][1], plate[k][2]);
+        end_face(4);
+        factors(1, tolerance[i], row, areas);
+        printf("a lamp of %d corners %.8f, right: %.8f\n", CORNERS, row[1], right);
+        ck_assert_double_eq_tol(row[1], right, tolerance[i] * right);
+    }
+}
+END_TEST
+
 /* Boxes in a row, each turned on its feet: what is far apart sees little of each other, with all
  * the others between. */
 enum { BOXES = 24, BOX_FACES = 5 * BOXES };
@@ -393,6 +432,7 @@ int main(void)
     tcase_add_test(tests, test_small_shades);
     tcase_add_test(tests, test_touching);
     tcase_add_test(tests, test_crossing_faces);
+    tcase_add_test(tests, test_many_corners);
     tcase_add_test(tests, test_faint);
     tcase_add_test(tests, test_random_scenes);
     return suite_failures(suite);
