@@ -106,27 +106,14 @@ static int reaches_wave_form(const struct dag *dag, const unsigned char *reached
     return 0;
 }
 
-/* Does some answer of a tool that answers for a list lead to another node? */
-static int leads_on(const struct dag *dag)
+/* Does some answer of a tool that answers for a list lead to what is of that kind? */
+static int leads_to(const struct dag *dag, enum target_kind kind)
 {
     for (int k = 0; k < dag->oracle_count; k++)
         for (int i = 0; i < dag->oracles[k].order.count; i++) {
             const struct node *node = dag_node_at(dag, &dag->oracles[k], i);
             for (int a = 0; dag->tools[node->tool].wave != NULL && a < node->arcs.count; a++)
-                if (dag->arcs[node->arcs.first + a].target.kind == TARGET_NODE)
-                    return 1;
-        }
-    return 0;
-}
-
-/* Does some answer of such a tool decide? */
-static int decides_then(const struct dag *dag)
-{
-    for (int k = 0; k < dag->oracle_count; k++)
-        for (int i = 0; i < dag->oracles[k].order.count; i++) {
-            const struct node *node = dag_node_at(dag, &dag->oracles[k], i);
-            for (int a = 0; dag->tools[node->tool].wave != NULL && a < node->arcs.count; a++)
-                if (dag->arcs[node->arcs.first + a].target.kind == TARGET_DECISION)
+                if (dag->arcs[node->arcs.first + a].target.kind == kind)
                     return 1;
         }
     return 0;
@@ -136,7 +123,7 @@ void dag_emit_wave_calls(struct dag *dag, struct text *out, const unsigned char 
 {
     if (!reaches_wave_form(dag, reached))
         return;
-    if (leads_on(dag))
+    if (leads_to(dag, TARGET_NODE))
         dag_print(
             out,
             "\n/* Of the pairs of a list those whose answer leads on to another, behind the "
@@ -150,7 +137,7 @@ void dag_emit_wave_calls(struct dag *dag, struct text *out, const unsigned char 
             "        to[waiting] = from[k];\n"
             "        waiting += leads[answers[k]];\n    }\n"
             "    return waiting;\n}\n");
-    if (decides_then(dag))
+    if (leads_to(dag, TARGET_DECISION))
         dag_print(
             out,
             "\n/* What answers decide; where one leads on it is told later, and until then "
