@@ -110,7 +110,7 @@ followed and decided otherwise | runtime/oracle/follow.c | s/return (enum decisi
 differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/    if (1)/; s/    if (panel.differences) {/    if (0) {/ | solver/check_compare
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
-libraries: the first counts | solver/scene/materials_by_name.c | s/^    \*slot = n;/    if (*slot == NONE) *slot = n;/ | solver/check_damaged
+libraries: the first counts | solver/scene/name_slots.c | s/^    \*slot_of(s, names, names\[i\]) = i;/    if (is_new) &/ | solver/check_damaged
 damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
 more behind a state | runtime/engine/exchange_state_read.c | s/judge(s, state_get_end(&s->in)) < 0/0/ | runtime/check_exchange_state
 a block of a state is left out | runtime/engine/exchange_fill.c | s/(i >= f->read/(i > f->read/ | runtime/check_exchange_state

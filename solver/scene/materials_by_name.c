@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernel/hash.h"
 #include "scene/read_numbers.h"
 #include "scene/text_lines.h"
 #include "util/array.h"
@@ -19,61 +18,26 @@
 static const char STAND_IN[] = "DefaultMaterial";
 static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
 
-#define NONE UINT32_MAX /* no material */
-
 enum { QUOTED_PATH = 256 }; /* bytes of a path that a message quotes */
 
 /* ---- names */
 
-/* The slot of that name, or the free one where it belongs. */
-static uint32_t *find_slot(const struct materials_by_name *m, const char *name)
-{
-    uint64_t h = 0;
-    for (const char *c = name; *c; c++)
-        h = hash64(h + (unsigned char)*c + HASH_STEP);
-    uint32_t i = (uint32_t)h & (m->slot_count - 1);
-    while (m->slots[i] != NONE && strcmp(m->file->names[m->slots[i]], name) != 0)
-        i = (i + 1) & (m->slot_count - 1);
-    return &m->slots[i];
-}
-
-/* Half of the slots stay free. Returns 0, or -1 when out of memory. */
-static int grow_slots(struct materials_by_name *m)
-{
-    if (m->names < m->slot_count / 2)
-        return 0;
-    uint32_t count = m->slot_count ? 2 * m->slot_count : 64, old_count = m->slot_count;
-    uint32_t *slots = count ? malloc(count * sizeof *slots) : NULL, *old = m->slots;
-    if (!slots)
-        return -1;
-    m->slots = slots;
-    m->slot_count = count;
-    memset(slots, 0xff, count * sizeof *slots); /* NONE */
-    for (uint32_t i = 0; i < old_count; i++)
-        if (old[i] != NONE)
-            *find_slot(m, m->file->names[old[i]]) = old[i];
-    free(old);
-    return 0;
-}
-
-/* A new material, from now on what its name means. Returns NONE when out of memory. */
+/* A new material, from now on what its name means. Returns NO_NAME when out of memory. */
 static uint32_t add_material(struct materials_by_name *m, const char *name)
 {
     uint32_t n = m->file->material_count;
-    if (grow_slots(m) || array_reserve(&m->use, (size_t)n + 1, &m->use_capacity, sizeof *m->use) < 0
+    if (array_reserve(&m->use, (size_t)n + 1, &m->use_capacity, sizeof *m->use) < 0
         || array_reserve(&m->group, (size_t)n + 1, &m->group_capacity, sizeof *m->group) < 0
-        || scene_file_add_material(m->file, name, &PLAIN))
-        return NONE;
+        || scene_file_add_material(m->file, name, &PLAIN)
+        || name_slots_put(&m->newest, m->file->names, n) < 0)
+        return NO_NAME;
     m->use[n] = m->group[n] = 0;
-    uint32_t *slot = find_slot(m, name);
-    m->names += *slot == NONE;
-    *slot = n;
     return n;
 }
 
 static uint32_t find_material(const struct materials_by_name *m, const char *name)
 {
-    return m->slot_count ? *find_slot(m, name) : NONE;
+    return name_slots_find(&m->newest, m->file->names, name);
 }
 
 /* The name without a comment behind it: "Material #25" is a name, "red # warm" may be red. */
@@ -90,9 +54,9 @@ static size_t bare_length(const char *name)
 int materials_use(struct materials_by_name *m, const char *name, uint32_t line, uint32_t *material)
 {
     *material = find_material(m, name);
-    if (*material == NONE) {
+    if (*material == NO_NAME) {
         *material = add_material(m, name);
-        if (*material == NONE)
+        if (*material == NO_NAME)
             return scene_file_no_memory(m->path);
         m->use[*material] = line;
     }
@@ -102,9 +66,9 @@ int materials_use(struct materials_by_name *m, const char *name, uint32_t line, 
 int materials_stand_in(struct materials_by_name *m, uint32_t line, uint32_t *material)
 {
     *material = find_material(m, STAND_IN);
-    if (*material == NONE)
+    if (*material == NO_NAME)
         *material = add_material(m, STAND_IN);
-    if (*material == NONE)
+    if (*material == NO_NAME)
         return scene_file_no_memory(m->path);
     materials_assume(m, NO_MATERIAL, m->path, line, "", NULL);
     return 0;
@@ -123,7 +87,7 @@ static int same_values(const struct RadMaterial *a, const struct RadMaterial *b)
 
 struct library {
     const char *path;
-    uint32_t material, before; /* being defined; what its name meant before, or NONE */
+    uint32_t material, before; /* being defined; what its name meant before, or NO_NAME */
     uint32_t line;             /* of its newmtl */
     int passed_over;           /* 1: a file before it on the mtllib line has defined it */
 };
@@ -132,10 +96,10 @@ struct library {
 static void end_material(struct materials_by_name *m, const struct library *l)
 {
     const struct scene_file *f = m->file;
-    if (l->material == NONE)
+    if (l->material == NO_NAME)
         return;
     const char *name = f->names[l->material];
-    if (l->before != NONE && !same_values(&f->materials[l->before], &f->materials[l->material]))
+    if (l->before != NO_NAME && !same_values(&f->materials[l->before], &f->materials[l->material]))
         materials_assume(m, DEFINED_TWICE, l->path, l->line, name, NULL);
     if (!f->places[l->material].diffuse_line)
         materials_assume(m, NO_DIFFUSE, l->path, l->line, name, NULL);
@@ -148,16 +112,16 @@ static int read_newmtl(struct materials_by_name *m, const struct text_lines *t, 
         return scene_file_no_memory(l->path);
     end_material(m, l);
     uint32_t found = find_material(m, name);
-    int undefined = found != NONE && m->use[found];
-    l->passed_over = found != NONE && !undefined && m->group[found] == m->groups
+    int undefined = found != NO_NAME && m->use[found];
+    l->passed_over = found != NO_NAME && !undefined && m->group[found] == m->groups
                      && strcmp(m->file->places[found].file, l->path) != 0;
-    l->before = undefined ? NONE : found;
-    l->material = l->passed_over ? NONE : undefined ? found : add_material(m, name);
+    l->before = undefined ? NO_NAME : found;
+    l->material = l->passed_over ? NO_NAME : undefined ? found : add_material(m, name);
     l->line = t->number;
     free(name);
     if (l->passed_over)
         return 0;
-    if (l->material == NONE)
+    if (l->material == NO_NAME)
         return scene_file_no_memory(l->path);
     m->use[l->material] = 0;
     m->group[l->material] = m->groups;
@@ -179,7 +143,7 @@ static int read_colour(struct materials_by_name *m, struct text_lines *t, const 
     if (count != 1 && count != 3)
         return report_error(l->path, line,
                             "a colour has %d numbers; give one per channel, three in all", count);
-    if (l->material == NONE) {
+    if (l->material == NO_NAME) {
         if (!l->passed_over)
             materials_assume(m, STRAY_COLOUR, l->path, line, diffuse ? "Kd" : "Ke", NULL);
         return 0;
@@ -197,14 +161,14 @@ static void read_opacity(struct materials_by_name *m, struct text_lines *t, cons
 {
     int dissolve = *t->word == 'd';
     double value;
-    if (l->material != NONE && next_word(t) && word_number(t, &value) && value < 1
+    if (l->material != NO_NAME && next_word(t) && word_number(t, &value) && value < 1
         && (dissolve || value > 0))
         materials_assume(m, TRANSPARENT, l->path, t->number, m->file->names[l->material], NULL);
 }
 
 static int read_library_text(struct materials_by_name *m, const char *path, struct text_lines t)
 {
-    struct library l = {.path = path, .material = NONE, .before = NONE};
+    struct library l = {.path = path, .material = NO_NAME, .before = NO_NAME};
     while (next_line(&t)) {
         int failed = 0;
         if (!next_word(&t))
@@ -215,7 +179,7 @@ static int read_library_text(struct materials_by_name *m, const char *path, stru
             failed = read_colour(m, &t, &l);
         else if (word_is(&t, "d") || word_is(&t, "Tr"))
             read_opacity(m, &t, &l);
-        else if ((word_is(&t, "map_Kd") || word_is(&t, "map_Ke")) && l.material != NONE)
+        else if ((word_is(&t, "map_Kd") || word_is(&t, "map_Ke")) && l.material != NO_NAME)
             materials_assume(m, TEXTURE, path, t.number, m->file->names[l.material], NULL);
         else if (word_is_any_case(&t, "newmtl") || word_is_any_case(&t, "Kd")
                  || word_is_any_case(&t, "Ke")) /* a lamp may be dark for it */
@@ -228,12 +192,12 @@ static int read_library_text(struct materials_by_name *m, const char *path, stru
 }
 
 /* A library once more: its definitions are the newest again. Returns 0 when it is new. */
-static int renew(const struct materials_by_name *m, const char *path)
+static int renew(struct materials_by_name *m, const char *path)
 {
     int has_read = 0;
     for (uint32_t i = 0; i < m->file->material_count; i++)
         if (m->file->places[i].file && strcmp(m->file->places[i].file, path) == 0) {
-            *find_slot(m, m->file->names[i]) = i;
+            (void)name_slots_put(&m->newest, m->file->names, i); /* no new name */
             has_read = 1;
         }
     return has_read;
@@ -314,14 +278,14 @@ static int use_bare(struct materials_by_name *m, uint32_t i)
 {
     struct scene_file *f = m->file;
     char *bare = strndup(f->names[i], bare_length(f->names[i]));
-    uint32_t found = NONE;
+    uint32_t found = NO_NAME;
     for (uint32_t j = 0; bare && j < f->material_count; j++) {
         size_t length = m->use[j] ? 0 : bare_length(f->names[j]);
         if (!m->use[j] && length == strlen(bare) && memcmp(f->names[j], bare, length) == 0)
             found = j;
     }
     free(bare);
-    if (found == NONE)
+    if (found == NO_NAME)
         return 0;
     for (uint32_t j = 0; j < f->polygon_count; j++)
         if (f->polygon_materials[j] == i)
@@ -394,6 +358,6 @@ void materials_free(struct materials_by_name *m)
     }
     free(m->use);
     free(m->group);
-    free(m->slots);
+    name_slots_free(&m->newest);
     free(m->last);
 }

@@ -10,6 +10,7 @@
 #ifndef MATERIALS_BY_NAME_H
 #define MATERIALS_BY_NAME_H
 
+#include "scene/name_slots.h"
 #include "scene/scene_file.h"
 
 /* What a reader took for granted or passed over, each kind told once. */
@@ -41,13 +42,11 @@ struct materials_by_name {
     size_t use_capacity;
     uint32_t *group; /* [material_count]: the mtllib line that defined it, counted from 1 */
     size_t group_capacity;
-    /* [slot_count], a power of two: the newest material of each name, UINT32_MAX where there is
-     * none; searched from the name's hash on */
-    uint32_t *slots, slot_count, names;
-    uint32_t groups;  /* mtllib lines so far */
-    uint32_t line;    /* of the last */
-    uint32_t defined; /* newmtl so far */
-    char *last;       /* the library read last */
+    struct name_slots newest; /* material of each name */
+    uint32_t groups;          /* mtllib lines so far */
+    uint32_t line;            /* of the last */
+    uint32_t defined;         /* newmtl so far */
+    char *last;               /* the library read last */
     struct assumed assumed[ASSUMPTIONS];
 };
 

@@ -5,56 +5,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernel/hash.h"
 #include "util/array.h"
-
-#define NONE UINT32_MAX /* no part */
-
-/* The slot of that name, or the free one where it belongs. */
-static uint32_t *find_slot(const struct part_names *p, const char *name)
-{
-    uint64_t h = 0;
-    for (const char *c = name; *c; c++)
-        h = hash64(h + (unsigned char)*c + HASH_STEP);
-    uint32_t i = (uint32_t)h & (p->slot_count - 1);
-    while (p->slots[i] != NONE && strcmp(p->names[p->slots[i]], name) != 0)
-        i = (i + 1) & (p->slot_count - 1);
-    return &p->slots[i];
-}
-
-/* Half of the slots stay free. Returns 0, or -1 when out of memory. */
-static int grow_slots(struct part_names *p)
-{
-    if (p->count < p->slot_count / 2)
-        return 0;
-    uint32_t count = p->slot_count ? 2 * p->slot_count : 64;
-    uint32_t *slots = count ? malloc(count * sizeof *slots) : NULL;
-    if (!slots)
-        return -1;
-    free(p->slots);
-    p->slots = slots;
-    p->slot_count = count;
-    memset(slots, 0xff, count * sizeof *slots); /* NONE */
-    for (uint32_t i = 0; i < p->count; i++)
-        *find_slot(p, p->names[i]) = i;
-    return 0;
-}
 
 /* Makes that name's part the current one. Takes over `name`. Returns 0, or -1. */
 static int use(struct part_names *p, char *name)
 {
-    if (!name || grow_slots(p))
-        return free(name), -1;
-    uint32_t *slot = find_slot(p, name);
-    if (*slot == NONE) {
+    if (!name)
+        return -1;
+    uint32_t part = name_slots_find(&p->slots, p->names, name);
+    if (part == NO_NAME) {
         if (array_reserve(&p->names, (size_t)p->count + 1, &p->name_capacity, sizeof *p->names))
             return free(name), -1;
-        p->names[p->count] = name;
-        *slot = p->count++;
+        part = p->count;
+        p->names[part] = name;
+        if (name_slots_put(&p->slots, p->names, part) < 0)
+            return free(name), -1;
+        p->count++;
     } else {
         free(name);
     }
-    p->current = *slot;
+    p->current = part;
     return 0;
 }
 
@@ -85,6 +55,6 @@ void part_names_free(struct part_names *p)
         free(p->names[i]);
     free(p->names);
     free(p->of);
-    free(p->slots);
+    name_slots_free(&p->slots);
     *p = (struct part_names){0};
 }

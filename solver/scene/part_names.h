@@ -8,6 +8,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include "scene/name_slots.h"
 
 struct part_names {
     char **names; /* [count] */
@@ -15,8 +16,8 @@ struct part_names {
     size_t name_capacity;
     uint32_t *of; /* [polygon]: its part; NULL when count is 0 */
     size_t of_capacity;
-    uint32_t current;            /* part of the polygons to come */
-    uint32_t *slots, slot_count; /* by the hash of names; a power of two */
+    uint32_t current; /* part of the polygons to come */
+    struct name_slots slots;
 };
 
 /* Polygons from `polygons` on, which is how many there are by now, belong to the part of that name,
