@@ -39,11 +39,11 @@ enum { RANGES_MOST = 6000000 };
 /* Called from the calling thread alone; nonzero stops. */
 typedef int ranges_watch(void *context, uint64_t leaves_done, uint64_t shares);
 
-/* Ranges for all uncovered leaves. least, most: of B below each element [element], the band where
- * it is largest, by which it is decided how far to look. Returns 0, or -1 when out of memory or
- * stopped. */
-int light_ranges_open(struct light_ranges *r, const struct light_operator *op, const double *least,
-                      const double *most, ranges_watch *watch, void *context);
+/* Ranges for all uncovered leaves. most, spread: of B below each element [element], the largest and
+ * that less the smallest, each in the band where it is largest; by them it is decided how far to
+ * look. Returns 0, or -1 when out of memory or stopped. */
+int light_ranges_open(struct light_ranges *r, const struct light_operator *op, const double *most,
+                      const double *spread, ranges_watch *watch, void *context);
 void light_ranges_close(struct light_ranges *r);
 
 #endif
