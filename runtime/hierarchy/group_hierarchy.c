@@ -29,7 +29,7 @@ enum { FANOUT = 4 };
 struct builder {
     struct hierarchy *h;
     const struct hierarchy *plain; /* measured face elements, and the scene's box */
-    double flat, size;             /* m */
+    double size;                   /* m */
     struct coplanar_groups planes;
     /* [face_count]: by face, the middle of its rectangle in its plane's frame, and of its
      * polygon's; the first face of that, where its rectangle in the plane at hand is */
@@ -373,7 +373,7 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
 {
     uint32_t n = plain->face_count, most = 2 * n + 2, *list = malloc(n * sizeof *list);
     struct along *scratch = malloc(n * sizeof *scratch);
-    struct builder b = {.h = h, .plain = plain, .flat = flat};
+    struct builder b = {.h = h, .plain = plain};
     int result = -1;
     memset(h, 0, sizeof *h);
     h->faces = plain->faces;

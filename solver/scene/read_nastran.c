@@ -31,7 +31,6 @@ struct nastran {
     struct mesh mesh;
     struct card card; /* the one under way: line 0 when there is none */
     struct nastran_systems systems;
-    int begun; /* 1: behind BEGIN BULK, or there is none */
 };
 
 static void copy_field(char to[WIDEST], const char *from, const char *end)
