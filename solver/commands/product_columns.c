@@ -124,9 +124,10 @@ int columns_write_product(const struct columns *c, const char *path, RadExchange
                           const struct open_scene *scene)
 {
     const size_t size = c->rows * c->count, all = (size_t)scene->report.polygons * c->count;
-    double *x = malloc((all + size + 1) * sizeof *x), *y = x + all;
+    double *x = malloc((all + size + 1) * sizeof *x);
     if (!x)
         return scene_file_no_memory(path);
+    double *y = x + all;
     for (size_t k = 0; k < all; k++) /* what is sent by a copy is what its original sends */
         x[k] = c->x[k % size];
     int status = radMultiplyExchange(exchange, c->count, x, y);
