@@ -20,8 +20,6 @@
 #include "engine/exchange_product.h"
 #include "kernel/constants.h"
 
-const char *const closure_names[CLOSURES] = {"none", "rows", "reciprocal"};
-
 enum { ITERATIONS = 500 };
 
 double closure_row_scale(double sum, double whole, int closed)

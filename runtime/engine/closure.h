@@ -10,9 +10,7 @@ enum closure {
     CLOSURE_NONE,       /* rows are left as they are, but for what a method needs to stay stable */
     CLOSURE_ROWS,       /* each row is scaled to 1 if it ought to sum to 1, else to at most 1 */
     CLOSURE_RECIPROCAL, /* the same, with A_i F_ij = A_j F_ji kept: of exchange areas only */
-    CLOSURES
 };
-extern const char *const closure_names[CLOSURES]; /* none, rows, reciprocal */
 
 /* The factor of a row that sums to `sum` where all would be `whole`. `closed`: it ought to be. */
 double closure_row_scale(double sum, double whole, int closed);

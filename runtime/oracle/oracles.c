@@ -8,7 +8,7 @@
 #include "oracle/oracles.h"
 #include "util/array.h"
 
-const char *const release_names[RELEASES] = {"flat", "dag", "hand", "wave"};
+static const char *const release_names[RELEASES] = {"flat", "dag", "hand", "wave"};
 
 static const struct oracle_sources nothing;
 
@@ -55,11 +55,6 @@ static const struct oracle *find_hand(const struct oracle_sources *sources, cons
         if (strcmp(sources->hand[i]->name, oracle) == 0)
             return sources->hand[i];
     return NULL;
-}
-
-int oracle_by_hand(const struct oracle_sources *sources, const char *oracle)
-{
-    return find_hand(sources ? sources : &nothing, oracle) != NULL;
 }
 
 static struct refiner *open_compiled(const struct oracle *oracle, enum release release,

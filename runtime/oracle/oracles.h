@@ -11,8 +11,6 @@
 
 enum release { RELEASE_FLAT, RELEASE_DAG, RELEASE_HAND, RELEASE_WAVE, RELEASES };
 
-extern const char *const release_names[RELEASES]; /* "flat", "dag", "hand", "wave" */
-
 /* What a program adds to the built-in oracles; all zero: nothing. */
 struct oracle_sources {
     /* [hand_count]: releases written by hand, or generated and linked with */
@@ -30,9 +28,6 @@ struct oracle_sources {
  * another RUNTIME_ABI. */
 int oracle_register(struct oracle_sources *sources, const struct oracle *oracle);
 void oracle_sources_free(struct oracle_sources *sources);
-
-/* Is there a registered release of this oracle? */
-int oracle_by_hand(const struct oracle_sources *sources, const char *oracle);
 
 /* A built-in or registered oracle by its name, or, when `oracle` looks like a file's name (ends in
  * .dag, has a '/', is "-"), the only one of that file. `sources` NULL: none. Returns NULL after a
