@@ -127,6 +127,12 @@ int api_give_up(RadSolution solution, const char *cause);
 /* Returns 0, or -1 with the device told that the solution can do no more. */
 int api_not_dead(RadSolution solution);
 
+/* Are there links? */
+static inline int api_refined(RadSolution solution)
+{
+    return solution->solve.refinement.hierarchy != NULL;
+}
+
 /* Is this process alone? Returns 0, or -1 with the device told that `what` needs all links. */
 int api_alone(RadDevice device, const char *what);
 
