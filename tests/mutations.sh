@@ -64,7 +64,7 @@ centres of one corner | runtime/engine/collocation.c | s/point_factor(r, s)/0.5 
 faces take their mean | runtime/engine/separable_links.c | s/return c->centres ? separable_kernel_at_centre(faces, i, &b->s)/return c->centres \&\& 0 ? separable_kernel_at_centre(faces, i, \&b->s)/ | runtime/check_solvers
 backs 8 of 8 | runtime/kernel/constants.h | s/\(CONTACT_BACKS\) *6$/\1 8/ | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure
 no plain pivots | runtime/engine/pivots.c | s/round_weight, &first, PASSING_PLAIN)/round_weight, \&first, PASSING)/ | runtime/check_separable_links runtime/check_clusters
-shares of links back to front | runtime/engine/refine.c | s/(size_t share = 0; share < s.shares; share++) {/(size_t share = s.shares; share-- > 0;) {/ | runtime/check_clusters
+shares of links back to front | runtime/engine/refine_order.c | s/(size_t share = 0; share < s.shares; share++) {/(size_t share = s.shares; share-- > 0;) {/ | runtime/check_clusters
 nobody is waited for | runtime/util/thread_pool.c | s/while (l->inside)/while (0 \&\& l->inside)/ | runtime/check_thread_pool
 all helpers are waited for | runtime/util/thread_pool.c | s/while (l->inside)/while (l->inside + (l->joined < l->room))/ | runtime/check_thread_pool
 helpers spin | runtime/util/thread_pool.c | s/pthread_cond_wait(&pool.open, &pool.lock)/pthread_mutex_unlock(\&pool.lock), pthread_mutex_lock(\&pool.lock)/ | runtime/check_thread_pool
