@@ -186,7 +186,7 @@ what is far makes all near touch | runtime/engine/exchange_tree.c | s/near \* ne
 oracles' rays as near as shafts | runtime/engine/exchange_tree.c | s/if (!(more > 0))/if (more < 1e9)/ | runtime/check_exchange
 covered rows are not looked at again | runtime/engine/exchange.c | s/(!(covered > 0) ../(!(covered > 0) \&\&/ | runtime/check_assemblies
 a corner beyond is between | runtime/hierarchy/flat_hull.c | s/!(across(hull\[count - 2\], hull\[count - 1\], p) > 0)/!turns(hull[count - 2], hull[count - 1], p)/ | runtime/check_flat_groups
-contacts of parts for wholes | runtime/engine/solve.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
+contacts of parts for wholes | runtime/engine/solve_contact.c | s/element >= c->first && !h->elements\[element\].children/element >= c->first/ | runtime/check_choice
 emitters of one leaf | runtime/engine/detail.c | s/return e->vertices \&\& /return e->vertices \&\& !(s->problem.exitance[e->face * s->problem.bands] > 0) \&\& / | runtime/check_ambient
 corners below what is emitted | runtime/engine/linear_solution.c | s/x->means->value\[at\] - emitted/x->means->value[at] - 0 * emitted/ | runtime/check_measured_error
 edges of solids in large leaves | runtime/engine/covered_leaves.c | s/is_edge \&\& e->area > most/is_edge \&\& e->area > 64 * most/ | runtime/check_covered_leaves
@@ -205,7 +205,7 @@ all faces are kept | runtime/particles/tally.c | s/tally->held = (uint32_t)(mine
 letters of another face | runtime/particles/landing_mail.c | s/.owner = tally->owner\[face\]/.owner = 0/ | runtime/check_own_counts
 quarters by their place | runtime/hierarchy/quarters.h | s/ + (number - q->child\[leaf\]);/;/ | runtime/check_own_counts
 children of several are not told | runtime/engine/mend_places.c | s/            p->at\[c\] = p->held++;/            (void)c;/ | runtime/check_own_counts
-new elements leave their parents as they were | runtime/engine/solve.c | s/face\[count++\] = f;/(void)face;/ | runtime/check_measured_error
+new elements leave their parents as they were | runtime/engine/solve_contact.c | s/face\[count++\] = f;/(void)face;/ | runtime/check_measured_error
 leaves before have no quarters | runtime/hierarchy/quarters.c | s/q->place\[i\] = made\[.*/q->place[i] = 0;/ | runtime/check_own_counts
 meshes far away | solver/output/far_away.c | s/return moved;/return 0;/ | solver/check_picture
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
