@@ -54,16 +54,30 @@ TOOL float positive_part(float x)
     return 0.5f * (x + fabsf(x));
 }
 
+/* From the centre of a face to a pivot. */
+struct separable_way {
+    float v[3], near, far, inverse; /* near, far: cosines times |v|; inverse: 1 / |v|^2 */
+};
+
+TOOL struct separable_way separable_way(const struct separable_faces *f, size_t i,
+                                        const struct pivot *s)
+{
+    const float *n = s->normal;
+    struct separable_way w = {.v = {s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i],
+                                    s->centre[2] - f->centre[2][i]}};
+    const float *v = w.v;
+    w.near =
+        positive_part(f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2]);
+    w.far = positive_part(s->shift - (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]));
+    w.inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + SEPARABLE_TINY);
+    return w;
+}
+
 /* k(x, s) pi for face i, times unit^2; the mean over the face to second order in its size. */
 TOOL float separable_kernel(const struct separable_faces *f, size_t i, const struct pivot *s)
 {
-    const float *n = s->normal;
-    float v[3] = {s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i],
-                  s->centre[2] - f->centre[2][i]};
-    float near =
-        positive_part(f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2]);
-    float far = positive_part(s->shift - (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]));
-    float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + SEPARABLE_TINY);
+    const struct separable_way w = separable_way(f, i, s);
+    const float *n = s->normal, *v = w.v, inverse = w.inverse;
     float p[3] = {f->across[0][i], f->across[1][i], f->across[2][i]},
           q[3] = {f->across[3][i], f->across[4][i], f->across[5][i]};
     float pv = p[0] * v[0] + p[1] * v[1] + p[2] * v[2],
@@ -73,23 +87,18 @@ TOOL float separable_kernel(const struct separable_faces *f, size_t i, const str
     float size = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
     float more = inverse
                  * (12 * inverse * (pv * pv + qv * qv) - 2 * size
-                    + 4 * (pn * pv + qn * qv) / (far + SEPARABLE_TINY));
+                    + 4 * (pn * pv + qn * qv) / (w.far + SEPARABLE_TINY));
     /* 1 + more, but never below 0 */
-    return near * far * inverse * inverse * (1 / (1 + positive_part(-more)) + positive_part(more));
+    return w.near * w.far * inverse * inverse
+           * (1 / (1 + positive_part(-more)) + positive_part(more));
 }
 
 /* The same at the face's centre. */
 TOOL float separable_kernel_at_centre(const struct separable_faces *f, size_t i,
                                       const struct pivot *s)
 {
-    const float *n = s->normal;
-    float v[3] = {s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i],
-                  s->centre[2] - f->centre[2][i]};
-    float near =
-        positive_part(f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2]);
-    float far = positive_part(s->shift - (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]));
-    float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + SEPARABLE_TINY);
-    return near * far * inverse * inverse;
+    const struct separable_way w = separable_way(f, i, s);
+    return w.near * w.far * w.inverse * w.inverse;
 }
 
 #endif
