@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "visibility/candidates.h"
+#include "kernel/element_distance.h"
 #include "kernel/shaft.h"
 
 struct walk {
@@ -21,12 +22,8 @@ struct walk {
 /* The box of a group, whose faces may reach out of its plane a little. */
 static void box_of_group(const struct element *e, double flat, double low[3], double high[3])
 {
+    distance_box(e, low, high);
     for (int k = 0; k < 3; k++) {
-        low[k] = high[k] = e->vertex[0][k];
-        for (int i = 1; i < e->vertices; i++) {
-            low[k] = e->vertex[i][k] < low[k] ? e->vertex[i][k] : low[k];
-            high[k] = e->vertex[i][k] > high[k] ? e->vertex[i][k] : high[k];
-        }
         low[k] -= flat;
         high[k] += flat;
     }
