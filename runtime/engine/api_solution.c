@@ -31,11 +31,6 @@ const char *radGetClusteringDoc(const char *name)
     return i < 0 ? NULL : clustering_helps[i];
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Is a . b what it should be, to the rounding of what a program computes or reads from a file? */
 static int near(double value, double wanted)
 {
@@ -47,9 +42,9 @@ static int check_camera(RadDevice device, const struct RadCamera *c)
     if (!api_place(c->eye))
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "the camera's eye is not finite, or beyond 3.4e38");
-    if (!near(dot(c->right, c->right), 1) || !near(dot(c->up, c->up), 1)
-        || !near(dot(c->ahead, c->ahead), 1) || !near(dot(c->right, c->up), 0)
-        || !near(dot(c->up, c->ahead), 0) || !near(dot(c->ahead, c->right), 0))
+    if (!near(dot3(c->right, c->right), 1) || !near(dot3(c->up, c->up), 1)
+        || !near(dot3(c->ahead, c->ahead), 1) || !near(dot3(c->right, c->up), 0)
+        || !near(dot3(c->up, c->ahead), 0) || !near(dot3(c->ahead, c->right), 0))
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "the camera's right, up and ahead must have length 1 and be at right "
                         "angles to each other");
