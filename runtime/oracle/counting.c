@@ -20,11 +20,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include "oracle/counting.h"
 #include "oracle/follow.h"
 #include "oracle/statistics.h"
 #include "oracle/tool_table.h"
+#include "util/clock.h"
 #include "wave.h"
 
 /* The tally that the thread used last, and of which counting: a number that is never given
@@ -35,13 +35,6 @@ static _Thread_local struct {
 } mine;
 
 static atomic_uint_fast64_t countings;
-
-static uint64_t nanoseconds(clockid_t which)
-{
-    struct timespec t;
-    clock_gettime(which, &t);
-    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
-}
 
 /* ---- tallies */
 
@@ -238,10 +231,10 @@ static inline enum decision walk(const struct program *p, struct tally *t, struc
             t->numbers + (size_t)p->answer_count + (size_t)(step - p->steps) * stride;
         uint64_t rays = t->host.rays;
         if (timed)
-            start = nanoseconds(CLOCK_MONOTONIC);
+            start = clock_nanoseconds(CLOCK_MONOTONIC);
         size_t at = (size_t)(step->next - p->next) + (size_t)step->call(d, step->arguments);
         if (timed) {
-            uint64_t spent = nanoseconds(CLOCK_MONOTONIC) - start;
+            uint64_t spent = clock_nanoseconds(CLOCK_MONOTONIC) - start;
             t->spans[t->span_count++] =
                 (struct span_of_step){numbers, spent > p->clock ? spent - p->clock : 0};
         }
@@ -263,10 +256,11 @@ static inline enum decision walk(const struct program *p, struct tally *t, struc
 static enum decision walk_timed(const struct program *p, struct tally *t, struct discussion *d,
                                 int *timed, uint64_t *spent)
 {
-    uint64_t own = nanoseconds(CLOCK_THREAD_CPUTIME_ID), wall = nanoseconds(CLOCK_MONOTONIC);
+    uint64_t own = clock_nanoseconds(CLOCK_THREAD_CPUTIME_ID),
+             wall = clock_nanoseconds(CLOCK_MONOTONIC);
     enum decision decision = walk(p, t, d, 1);
-    wall = nanoseconds(CLOCK_MONOTONIC) - wall;
-    own = nanoseconds(CLOCK_THREAD_CPUTIME_ID) - own;
+    wall = clock_nanoseconds(CLOCK_MONOTONIC) - wall;
+    own = clock_nanoseconds(CLOCK_THREAD_CPUTIME_ID) - own;
     *spent = 0;
     *timed = wall <= own;
     for (size_t i = 0; *timed && i < t->span_count; i++) {
@@ -354,8 +348,8 @@ static uint64_t clock_cost(void)
 {
     uint64_t least = UINT64_MAX;
     for (int i = 0; i < 1000; i++) {
-        uint64_t start = nanoseconds(CLOCK_MONOTONIC),
-                 between = nanoseconds(CLOCK_MONOTONIC) - start;
+        uint64_t start = clock_nanoseconds(CLOCK_MONOTONIC),
+                 between = clock_nanoseconds(CLOCK_MONOTONIC) - start;
         least = between < least ? between : least;
     }
     return least;

@@ -16,10 +16,10 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include "visibility/back_faces.h"
 #include "visibility/candidates.h"
 #include "visibility/free_space.h"
+#include "util/clock.h"
 #include "util/embree.h"
 #include "util/embree_memory.h"
 #include "util/spared_rays.h"
@@ -59,9 +59,7 @@ struct rays {
 
 static uint64_t now(void)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+    return clock_nanoseconds(CLOCK_MONOTONIC);
 }
 
 /* Rays that end at 1 and meet whatever there is. */
