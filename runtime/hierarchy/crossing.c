@@ -168,13 +168,14 @@ static int scan_band(struct scan *s, double from, double to, struct round_parts 
         else if (!round)
             now[count++] = (struct open_part){left, s->across[i], from};
     }
-    for (uint32_t i = 0; i < s->open_count[0]; i++) {
+    /* Both lists run from left to right: what goes on stands behind what was found last. */
+    for (uint32_t i = 0, at = 0; i < s->open_count[0]; i++) {
         struct open_part *o = &s->open[0][i];
-        uint32_t j = 0;
-        while (j < count && (now[j].left != o->left || now[j].right != o->right))
-            j++;
-        if (j < count)
-            now[j].from = o->from;
+        uint32_t tried = 0;
+        for (; tried < count && (now[at].left != o->left || now[at].right != o->right); tried++)
+            at = at + 1 < count ? at + 1 : 0;
+        if (tried < count)
+            now[at].from = o->from;
         else if (end_part(s, o, from, parts, touch))
             return -1;
     }
