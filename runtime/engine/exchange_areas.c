@@ -140,7 +140,8 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
         .limits = sight_limits_for(how->tolerance, scene->input_count, tree->h.face_count),
         .refinement = how->stream ? refinement : NULL,
         .ranks = how->ranks};
-    if (find_inputs(m, scene) == 0 && exchange_faces_open(&m->shapes, tree) == 0) {
+    const int out = find_inputs(m, scene) < 0 || exchange_faces_open(&m->shapes, tree) < 0;
+    if (!ranks_any(m->ranks, out)) {
         struct exchange_tiles t = exchange_tiles(m, refinement);
         while (exchange_tiles_next(&t))
             m->block_count += !how->stream;
