@@ -161,8 +161,7 @@ struct RadPolygons {
     uint32_t size;
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
-    /* 1: positions have been floats; then what is thinner or bent by less than these can say is
-     * taken so */
+    /* 1: positions have been floats; then what is thinner than these can say has no area */
     int single_precision;
     int as_given; /* 1: quads are taken for flat and convex, and no face is cut where others stand
                      in it; for studies of what comes of it */

@@ -36,7 +36,7 @@ struct builder {
     struct round_parts round;
     size_t capacity;        /* faces that there is room for */
     double low[3], high[3]; /* box of all polygons (m) */
-    double flat;            /* corners no farther than that from a plane are in it (m) */
+    double flat;            /* corners no farther than that from a plane are in it (m), for rays */
     struct scene_error *error;
 };
 
@@ -373,7 +373,7 @@ static int build(struct builder *b, int threads)
     scene->precision = b->polygons->single_precision ? SCENE_SINGLE : SCENE_DOUBLE;
     double extent =
         fmax(fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]), b->high[2] - b->low[2]);
-    b->flat = b->polygons->single_precision ? SCENE_FLAT_ROUNDED * extent : INFINITY;
+    b->flat = SCENE_FLAT_FOR_RAYS * extent;
     for (uint32_t i = 0; i < scene->input_count; i++) {
         if (add_polygon(b, i, &b->polygons->indices[at], size_of(b->polygons, i)) < 0)
             return out_of_memory(b->error);
