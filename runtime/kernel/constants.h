@@ -152,8 +152,8 @@
 /* of a quad's size. Corners no farther from its mean plane make it flat, else it is two
  * triangles. Chosen */
 #define SCENE_FLAT_QUAD 1e-4
-/* of the scene's extent. They must be no farther either: rays keep 2^-18 of the extent off surfaces,
- * four times that, so that none meets the quad it leaves */
+/* of the scene's extent. They must be no farther either: rays keep 2^-18 of the extent off
+ * surfaces, four times that, so that none meets the quad it leaves */
 #define SCENE_FLAT_FOR_RAYS 0x1p-20
 /* of its longest diagonal. A polygon no wider than that has no area. Chosen: far above the
  * rounding of its area */
