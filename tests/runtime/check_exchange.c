@@ -195,7 +195,7 @@ START_TEST(test_product_above)
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     made_quad(&scene, 0, 0, 0, 0.01, 0, 1, 0, 1, 0, 0);
     struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    for (int closure = CLOSURE_ROWS; closure < CLOSURES; closure++) {
+    for (int closure = CLOSURE_ROWS; closure <= CLOSURE_RECIPROCAL; closure++) {
         const struct exchange_options options = {
             .tolerance = 3e-4, .closure = (enum closure)closure, .threads = 1};
         const double in[2] = {0.3, 0.7};
