@@ -26,6 +26,8 @@ groups that nobody is told of | runtime/engine/measured_error.c | s/^    dim_cou
 light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power_scenes
 groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->reflectance/i < 0 \&\& e->reflectance/ | runtime/check_power_scenes
 leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
+walls that stand in their own way | runtime/visibility/outer_walls.c | s/if (low < w->behind)/if (low > w->behind)/ | runtime/check_free_space
+what lies flat on a wall | runtime/visibility/outer_walls.c | s/return low < w->near \&\&/return 0 * low < 0 \&\&/ | runtime/check_free_space
 shafts of empty rooms | runtime/visibility/rays.c | s/return free_space_is_all(&rays->free)$/return 0/ | runtime/check_bends
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
 groups pay nothing | runtime/engine/row_sums.c | s/if (rows.sum > most \* rows.area)/if (0 \&\& rows.sum > most * rows.area)/ | runtime/check_transport

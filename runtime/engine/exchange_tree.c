@@ -14,6 +14,7 @@
 #include "util/array.h"
 #include "visibility/candidates.h"
 #include "visibility/hidden.h"
+#include "visibility/outer_walls.h"
 
 static const struct exchange_tree *tree_of(const struct host *host)
 {
@@ -144,6 +145,8 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
     t->host = *rays_host(t->rays);
     t->host.ray_offset *= share;
     t->host.flat *= share;
+    if (outer_walls_find(&t->h, t->host.ray_offset) < 0)
+        goto fail;
     t->lift =
         fmin(fmax(SIGHT_LIFT * t->host.ray_offset, SIGHT_MISFITS * misfit), t->host.ray_offset);
     t->host.occluded = occluded;

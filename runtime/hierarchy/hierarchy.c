@@ -324,5 +324,6 @@ void hierarchy_free(struct hierarchy *h)
     free(h->order);
     free(h->range);
     free(h->solid);
+    free(h->outer);
     memset(h, 0, sizeof *h);
 }

@@ -64,6 +64,9 @@ struct hierarchy {
     /* [built]: 1: what stands in shafts: faces, and groups that are as good as one. NULL: faces
      * alone */
     unsigned char *solid;
+    /* [built]: 1: all that an element holds has the whole scene in front of it, and so stands in no
+     * shaft (visibility/outer_walls.h). NULL: nobody knows */
+    unsigned char *outer;
     double flat; /* with groups: how far from their planes their faces may reach (m) */
 };
 

@@ -98,6 +98,8 @@ static int walk_shaft(const struct walk *w, uint32_t index)
     const struct hierarchy *h = w->h;
     const struct element *e = &h->elements[index];
     double low[3], high[3];
+    if (h->outer && h->outer[index])
+        return 0;
     if (w->of && w->of[index] && (w->of[index] == w->behind[0] || w->of[index] == w->behind[1]))
         return 0;
     if (h->solid ? h->solid[index] : e->vertices)

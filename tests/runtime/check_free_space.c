@@ -1,9 +1,10 @@
 /* check_free_space.c - what passes without a ray is passed by no face, and in an empty convex room
- * that is all.
+ * that is all; and walls that have all before them are known.
  * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
+#include "engine/exchange_tree.h"
 #include "kernel/hash.h"
 #include "scene/make_scene.h"
 #include "suite.h"
@@ -180,6 +181,49 @@ START_TEST(test_corner)
 }
 END_TEST
 
+/* How far all corners of a scene are in front of an element's plane, at the least (m). */
+static double least_before(const struct scene *s, const struct element *e)
+{
+    double least = INFINITY;
+    for (uint32_t i = 0; i < s->face_count; i++)
+        for (uint32_t v = 0; v < s->faces[i].vertices; v++)
+            least = fmin(least, height3(s->faces[i].vertex[v], e->vertex[0], e->normal));
+    return least;
+}
+
+/* The walls of a room have all before them, and nothing else does; the floor has, too, but that a
+ * box lies flat on it. In an empty room that is all of the tree. */
+START_TEST(test_outer_walls)
+{
+    const int boxes = _i % 3 ? 1 + _i % BOXES : 0;
+    uint64_t seed = 1 + 1000003 * (uint64_t)_i;
+    struct scene s;
+    struct exchange_tree t;
+    const char *cause;
+    uint32_t outer = 0, walls = 0;
+    make_room(&s, 1 + _i % 4, boxes, &seed);
+    ck_assert_int_eq(exchange_tree_open(&t, s.faces, s.face_count, 1, &cause), 0);
+    for (uint32_t i = 0; i < t.h.built; i++) {
+        const struct element *e = &t.h.elements[i];
+        uint32_t above = i;
+        while (above && !t.h.solid[above = t.h.elements[above].parent])
+            ;
+        if (!t.h.solid[i] || above) /* part of one */
+            continue;
+        const int before = least_before(&s, e) > -t.host.ray_offset / 4;
+        ck_assert_msg(before || !t.h.outer[i], "room %d: element %u", _i, i);
+        walls += (uint32_t)before;
+        outer += t.h.outer[i];
+    }
+    ck_assert_uint_gt(walls, 0);
+    ck_assert_int_eq(t.h.outer[0], boxes == 0);
+    ck_assert_msg(boxes ? outer < walls && outer >= walls / 6 * 5 : outer == walls,
+                  "room %d: %u of %u", _i, outer, walls);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("free space");
@@ -187,6 +231,7 @@ int main(void)
     tcase_set_timeout(cases, 120);
     tcase_add_loop_test(cases, test_passes, 0, SCENES);
     tcase_add_test(cases, test_corner);
+    tcase_add_loop_test(cases, test_outer_walls, 0, SCENES);
     suite_add_tcase(suite, cases);
     return suite_failures(suite) != 0;
 }
