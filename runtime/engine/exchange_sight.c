@@ -77,10 +77,12 @@ int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits 
     scratch->heap = malloc(most * sizeof *scratch->heap);
     scratch->between = malloc(sizeof *scratch->between);
     scratch->bodies = malloc(sizeof *scratch->bodies);
+    scratch->known = calloc(1, sizeof *scratch->known);
     for (int i = 0; i < 2; i++)
         face_fit_open(&scratch->fit[i], 3 + i, 2);
     face_fit_open(&scratch->inside, 4, 1);
     return scratch->nodes && scratch->lists && scratch->heap && scratch->between && scratch->bodies
+                   && scratch->known
                ? 0
                : -1;
 }
@@ -92,6 +94,7 @@ void sight_scratch_close(struct sight_scratch *scratch)
     free(scratch->heap);
     free(scratch->between);
     free(scratch->bodies);
+    free(scratch->known);
 }
 
 /* A piece of e with these corners. */
@@ -311,7 +314,8 @@ static double misjudged(const struct looking *l, const struct sight_node *node, 
     double sum;
     if (!l->limits.many || !(hidden > 0))
         return 0;
-    const double off = sight_near(&node->piece, l->tree, b->list, b->faces, &sum);
+    const double off =
+        sight_near(&node->piece, l->tree, b->list, b->faces, l->scratch->known, &sum);
     return MISJUDGED * (hidden < sum ? off * hidden / sum : off);
 }
 
@@ -396,7 +400,8 @@ static double missed(const struct looking *l, int at)
     sight_eyes_add(&eyes, &node->piece);
     for (int q = 0; q < QUARTERS && node->quarters; q++)
         sight_eyes_add(&eyes, &quarters[q].piece);
-    return fmin(sight_missed(&eyes, &node->piece, l->to, l->tree, list_of(l, at), node->count),
+    return fmin(sight_missed(&eyes, &node->piece, l->to, l->tree, list_of(l, at), node->count,
+                             l->scratch->known),
                 node->value);
 }
 

@@ -7,7 +7,6 @@
  * throws a shade on some point is not asked: the rule's own error speaks of that. [derived here]
  * SPDX-License-Identifier: MIT */
 #include "engine/sight_missed.h"
-#include "engine/sight_near.h"
 #include "kernel/element_distance.h"
 #include "kernel/lambert.h"
 #include "kernel/shaft.h"
@@ -91,7 +90,7 @@ static int is_beyond(const struct element *face, const struct element *from,
 
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
-                    const uint32_t *faces, int count)
+                    const uint32_t *faces, int count, struct sight_known *known)
 {
     struct shaft shaft;
     double sum = 0;
@@ -103,7 +102,8 @@ double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
             || is_beyond(face, to, piece, tree->h.flat)
             || !candidates_meets(&tree->h, &shaft, tree->host.ray_offset, faces[i]))
             continue;
-        sum += fmin(fmin(sight_exchange_through(face, piece), sight_exchange_through(face, to)),
+        sum += fmin(fmin(sight_exchange_through(tree, faces[i], piece, known),
+                         sight_exchange_through(tree, faces[i], to, known)),
                     exchange_in_gap(face, piece));
     }
     return sum;

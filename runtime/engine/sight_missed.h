@@ -4,6 +4,7 @@
 #define SIGHT_MISSED_H
 
 #include "engine/face_rule.h"
+#include "engine/sight_near.h"
 #include "engine/sight_pieces.h"
 
 /* The points of the rules inside of so many pieces, where rays from them start, and how far that is
@@ -24,6 +25,6 @@ void sight_eyes_add(struct sight_eyes *eyes, const struct element *piece);
  * for, passes through those of the faces that throw a shade on none of the points (m2). */
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
-                    const uint32_t *faces, int count);
+                    const uint32_t *faces, int count, struct sight_known *known);
 
 #endif
