@@ -158,7 +158,8 @@ TOOL void cluster_descend(struct cluster_wave *w, int side)
 /* As surface_point, on the samples' faces; of a lost one, anywhere. */
 TOOL void cluster_points(struct cluster_side *x, int count, const struct element *none)
 {
-    _Static_assert(sizeof none->vertex == 12 * sizeof(double), "three rows of four");
+    /* Three rows of four: an assertion as in cluster_parts_body. */
+    (void)sizeof(char[sizeof none->vertex == 12 * sizeof(double) ? 1 : -1]);
     for (int i = count; i % CLUSTER_FEW; i++)
         x->face[i] = none;
     for (int i = 0; i < count; i += CLUSTER_FEW) {

@@ -69,9 +69,11 @@ TOOL void cluster_parts_body(const struct element *child, int children, const do
                              double slope, struct cluster_parts *p)
 {
     static const double place[CLUSTER_CHILDREN] = {0, 1, 2, 3, 4, 5, 6, 7};
-    _Static_assert(offsetof(struct element, normal) == 0
-                       && offsetof(struct element, area) == 3 * sizeof(double),
-                   "a row is the normal and the area");
+    /* A row is the normal and the area: an assertion that C99, C11 and C++11 know alike. */
+    (void)sizeof(char[offsetof(struct element, normal) == 0
+                              && offsetof(struct element, area) == 3 * sizeof(double)
+                          ? 1
+                          : -1]);
     const double v0 = v[0], v1 = v[1], v2 = v[2], last = children - 1;
     double sum = 0;
     for (int i = 0; i < children; i += 4) {

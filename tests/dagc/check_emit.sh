@@ -40,6 +40,16 @@ check "prove each of them" sh -c '[ "$(grep -c ": proved on" said)" = "$(grep -c
 check "prove a user's tool and term" "$dagc" --prove --instrument --trace "$top/examples/user_tool/near_first.dag"
 check "prove branches and externs" says 'proved on all' "$dagc" -Wno-all --catalog "$catalog" --prove --instrument --trace "$top/tests/dagc/emit_branch.dag"
 check "$graphs random graphs" sh "$top/tests/dagc/prove.sh" "$dagc" $graphs
+# All of them for C++, against the runtime's headers and beside none: g++ says most about what is C alone.
+if have g++; then
+    "$dagc" --emit=catalog-h -o catalog.h "$top/runtime/catalog.dag"
+    check "C++ of the oracles" "$dagc" -Wno-all --emit=c++ --release=wave -o all.cpp --header all.h all.dag
+    check "C++ of the oracles alone" "$dagc" -Wno-all --emit=c++ --release=wave --standalone --prefix all -o alone.cpp --header alone.h all.dag
+    for standard in c++11 c++17; do
+        check "g++ -std=$standard" g++ -std=$standard -fsyntax-only -I. -I"$top/runtime" all.cpp
+        check "g++ -std=$standard: alone" g++ -std=$standard -Wall -Wextra -Wpedantic -fsyntax-only alone.cpp
+    done
+fi
 cat >small.dag <<'END'
 oracle small {
   param most : flux = 1 in [0, inf];
