@@ -127,6 +127,19 @@ find . -path './build*' -prune -o -print | sed 's,.*/,,; s/\.[a-z]*$//' | sort -
 grep -o '`[a-z][a-z_]*`' ARCHITECTURE.md | tr -d '`' | sort -u | comm -23 - "$tmp/stems" >"$tmp/unnamed"
 judge "names that ARCHITECTURE.md has of nothing" "$tmp/unnamed"
 
+# ---- generated text is compiled by the Makefile's flags of arithmetic, wherever a user does it
+flags=$(sed -n 's/^CFLAGS .*-std=c11/&/p' Makefile | grep -oE -- '-f[a-z-]+(=[a-z]+)?')
+[ "$(echo "$flags" | wc -l)" -ge 3 ] || echo "Makefile: no CFLAGS with flags of arithmetic" >"$tmp/flags"
+for file in dagc/prove/compile.c dagc/package/dagc.mk dagc/package/dagcConfig.cmake dagc/emit/emit_skeleton.c dagc/man/dagc.1 \
+    $(git ls-files 'examples/*/Makefile' | grep -v engine) examples/plugin/desk.c; do # engine compiles no graph
+    wanted=1
+    [ $file != dagc/man/dagc.1 ] || wanted=2 # for cc and for Meson
+    for flag in $flags; do
+        [ "$(grep -c -- "$flag" $file)" -ge $wanted ] || echo "$file: $flag"
+    done
+done >>"$tmp/flags"
+judge "flags of the Makefile that are missing where a graph is compiled" "$tmp/flags"
+
 # ---- threads: all but tests is compiled without OpenMP, which would leave such loops to one thread and say nothing
 grep -nE '^ *#pragma omp (parallel|for|atomic|critical|barrier|single)|omp_[a-z]+_|<omp\.h>' $(cat "$tmp/files") >"$tmp/openmp"
 judge "OpenMP where loops are thread_pool_run's" "$tmp/openmp"

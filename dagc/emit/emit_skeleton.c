@@ -178,7 +178,7 @@ static void print_makefile(struct skeleton *s)
     const char *n = s->name, *c = s->cxx ? "cpp" : "c", *compiler = s->cxx ? "CXX" : "CC";
     dag_print(out,
               "# make, then ./%s\nDAGC   = dagc\n"
-              "%sFLAGS = -O2 -Wall -Wextra -ffp-contract=off\n\n"
+              "%sFLAGS = -O2 -Wall -Wextra -ffp-contract=off -fno-math-errno -fno-trapping-math\n\n"
               "%s: main.%s %s.%s %s.h\n"
               "\t$(%s) $(%sFLAGS) -o $@ main.%s %s.%s -lm\n\n"
               "%s.%s %s.h: %s.dag\n"

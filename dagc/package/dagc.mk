@@ -14,7 +14,7 @@
 DAGC_PREFIX := $(patsubst %/share/dagc/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 DAGC        ?= $(DAGC_PREFIX)/bin/dagc
 DAGC_CATALOG ?= $(shell sed -n 's/^[ 	]*catalog[ 	]*"\([^"]*\)".*/\1/p' *.dag 2>/dev/null | sed 1q)
-DAGC_CFLAGS  = $(if $(DAGC_CATALOG),-I. $(addprefix -I,$(patsubst %/,%,$(dir $(DAGC_CATALOG))))) -I$(DAGC_PREFIX)/include/dagc -ffp-contract=off
+DAGC_CFLAGS  = $(if $(DAGC_CATALOG),-I. $(addprefix -I,$(patsubst %/,%,$(dir $(DAGC_CATALOG))))) -I$(DAGC_PREFIX)/include/dagc -ffp-contract=off -fno-math-errno -fno-trapping-math
 DAGC_LIBS    = -lm
 DAGC_FILE   := $(shell command -v $(firstword $(DAGC)))
 DAGC_TEXT   := $(if $(DAGC_CXX),cpp,c)

@@ -115,8 +115,9 @@ function(dagc_add_refiner target graph)
     DEPENDS ${sources} "${DAGC_EXECUTABLE}" ${depfile}
     COMMENT "dagc ${name}.dag" VERBATIM)
   target_sources(${target} PRIVATE "${text}" "${folder}/${name}.h")
-  # No contraction of a*b+c: all releases of an oracle agree to the bit.
-  set_source_files_properties("${text}" PROPERTIES COMPILE_OPTIONS "-ffp-contract=off")
+  # No contraction of a*b+c: all releases of an oracle agree to the bit. Nobody asks for errno after a root, or for flags.
+  set_source_files_properties("${text}" PROPERTIES
+    COMPILE_OPTIONS "-ffp-contract=off;-fno-math-errno;-fno-trapping-math")
   _dagc_include(${target} "${top}" "${folder}" "${DAGC_INCLUDE_DIR}")
   set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES m)
   set_property(TARGET ${target} APPEND PROPERTY INTERFACE_LINK_LIBRARIES m)

@@ -5,7 +5,8 @@
  *
  * Or as a shared object, compiled with the headers that `make install` leaves in include/dagc:
  *
- *   cc -shared -fPIC -O2 -ffp-contract=off -I/usr/local/include/dagc -o desk.so desk.c
+ *   cc -shared -fPIC -O2 -ffp-contract=off -fno-math-errno -fno-trapping-math \
+ *      -I/usr/local/include/dagc -o desk.so desk.c
  *
  * It is asked from many threads at once, and must answer the same for the same pair.
  * SPDX-License-Identifier: MIT */
