@@ -180,6 +180,9 @@ void dag_run_passes(struct dag *dag, const struct input *catalog, const struct i
 
 /* ---- passes, in their order */
 
+/* Can it begin C names? */
+int dag_is_prefix(const char *text);
+
 enum content { CONTENT_CATALOG, CONTENT_ORACLES };
 void dag_parse(struct dag *dag, int source, enum content content); /* and what it imports */
 void dag_resolve_catalog(struct dag *dag); /* what was declared since the last time */
@@ -228,6 +231,8 @@ void dag_emit_catalog_part(const struct dag *dag, struct text *out, const unsign
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 /* a tool's or term's header */
 void dag_emit_stub(struct dag *dag, struct text *out, const char *name);
+/* What `wave` in the catalog asks for besides. */
+void dag_emit_stub_wave(struct dag *dag, struct text *out, const char *name);
 
 /* ---- expression.c */
 

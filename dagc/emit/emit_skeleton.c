@@ -202,6 +202,12 @@ void dag_emit_skeleton(struct skeleton *s)
         dag_emit_stub(dag, file_of(s, dag->tools[i].header), dag->tools[i].name);
     for (int i = 0; i < dag->term_count; i++)
         dag_emit_stub(dag, file_of(s, dag->terms[i].header), dag->terms[i].name);
+    for (int i = 0; i < dag->tool_count; i++)
+        if (dag->tools[i].wave != NULL)
+            dag_emit_stub_wave(dag, file_of(s, dag->tools[i].wave), dag->tools[i].name);
+    for (int i = 0; i < dag->term_count; i++)
+        if (dag->terms[i].wave != NULL)
+            dag_emit_stub_wave(dag, file_of(s, dag->terms[i].wave), dag->terms[i].name);
     if (dag_skeleton_graph(s) < 0)
         return;
     print_program(s);

@@ -3,6 +3,8 @@
  * The signature is the one that flat code and the interpreter's table call, so that a stub
  * compiles at once; until it is written it gives the first answer, or 0.
  * SPDX-License-Identifier: MIT */
+#include <string.h>
+
 #include "base/internal.h"
 
 static void print_guard(struct text *out, const char *kind, const char *name)
@@ -38,13 +40,26 @@ static void print_needs(const struct dag *dag, struct text *out, struct span nee
     }
 }
 
+/* The header of need i of those that the tool reads, then of those that it writes. */
+static const char *need_header(const struct dag *dag, const struct tool *tool, int i)
+{
+    const int at =
+        i < tool->reads.count ? tool->reads.first + i : tool->writes.first + i - tool->reads.count;
+    return dag->terms[dag->needs[at].term].header;
+}
+
+/* Each once: a term may be read and written, and terms may share a header. */
 static void print_includes(const struct dag *dag, struct text *out, const struct tool *tool)
 {
-    const struct span needs[2] = {tool->reads, tool->writes};
     dag_print(out, "#include \"%s\"\n", dag->runtime_header);
-    for (int k = 0; k < 2; k++)
-        for (int i = needs[k].first; i < needs[k].first + needs[k].count; i++)
-            dag_print(out, "#include \"%s\"\n", dag->terms[dag->needs[i].term].header);
+    for (int i = 0; i < tool->reads.count + tool->writes.count; i++) {
+        const char *header = need_header(dag, tool, i);
+        int before = 0;
+        while (before < i && strcmp(need_header(dag, tool, before), header) != 0)
+            before++;
+        if (before == i)
+            dag_print(out, "#include \"%s\"\n", header);
+    }
 }
 
 static void print_tool(const struct dag *dag, struct text *out, const struct tool *tool)
@@ -133,6 +148,61 @@ static void print_term(const struct dag *dag, struct text *out, const struct ter
         dag_print(out, "_PRESENT");
     }
     dag_print(out, ";\n    }\n    return d->terms.%s;\n}\n\n#endif\n", term->name);
+}
+
+/* By the tool itself, pair by pair: what --release=wave calls until somebody writes a faster one.
+ */
+static void print_tool_wave(const struct dag *dag, struct text *out, const struct tool *tool)
+{
+    dag_print(out,
+              "/* %s - the same as %s of many pairs at once: block[at[k]], k below count. */\n",
+              tool->wave, tool->header);
+    print_frame(out, "TOOL_WAVE", tool->name);
+    dag_print(out,
+              "#include <stdint.h>\n#include \"%s\"\n\nstatic inline void wave_%s(struct "
+              "discussion *block, const uint16_t *at, int count",
+              tool->header, tool->name);
+    for (int i = 0; i < tool->parameters.count; i++) {
+        const struct parameter *p = &dag->parameters[tool->parameters.first + i];
+        dag_print(out, ", const %s *%s",
+                  dag->types[p->type].base == BASE_INTEGER ? "int" : "double", p->name);
+    }
+    dag_print(out,
+              ", unsigned char *answers)\n{\n    int k_;\n    for (k_ = 0; k_ < count; k_++)\n"
+              "        answers[k_] = (unsigned char)tool_%s(&block[at[k_]]",
+              tool->name);
+    for (int i = 0; i < tool->parameters.count; i++)
+        dag_print(out, ", %s[k_]", dag->parameters[tool->parameters.first + i].name);
+    dag_print(out, ");\n}\n\n#endif\n");
+}
+
+static void print_term_wave(struct text *out, const struct term *term)
+{
+    const int levels = term->levels.count > 0;
+    dag_print(out,
+              "/* %s - the same as %s of many pairs at once: block[at[k]], k below count. */\n",
+              term->wave, term->header);
+    print_frame(out, "TERM_WAVE", term->name);
+    dag_print(out,
+              "#include <stdint.h>\n#include \"%s\"\n\nstatic inline void wave_term_%s(struct "
+              "discussion *block, const uint16_t *at, int count",
+              term->header, term->name);
+    if (levels)
+        dag_print(out, ", enum %s_level level", term->name);
+    dag_print(
+        out,
+        ")\n{\n    int k;\n    for (k = 0; k < count; k++)\n        (void)term_%s(&block[at[k]]"
+        "%s);\n}\n\n#endif\n",
+        term->name, levels ? ", level" : "");
+}
+
+void dag_emit_stub_wave(struct dag *dag, struct text *out, const char *name)
+{
+    int tool = dag_find(&dag->tool_names, name);
+    if (tool >= 0)
+        print_tool_wave(dag, out, &dag->tools[tool]);
+    else
+        print_term_wave(out, &dag->terms[dag_find(&dag->term_names, name)]);
 }
 
 void dag_emit_stub(struct dag *dag, struct text *out, const char *name)

@@ -39,13 +39,13 @@ term bounded : delay in [0, inf] "with a range";
 term graded  : force levels (guess < bound < exact) "with levels";
 term both    : number in [-1, 1] levels (low < high) header "terms/shared.h" "with both, in a header of several";
 term twin    : whole in [0, 9] header "terms/shared.h";
-term counted : items levels (some < all);
+term counted : items levels (some < all) wave;
 term where   : place "a vector";
 term two     : pair_of levels (rough < fine) header "tools/in_one.h" "a vector with levels, in a tool's header";
 
 tool bare() question answers (yes, no);
 tool kinds() question answers (sure precise, about approximate, what other, unsaid) "Every kind of answer.";
-tool given(a : number, b : whole, c : delay, d_ : items) question answers (yes precise, no precise) "No range, no default.";
+tool given(a : number, b : whole, c : delay, d_ : items) question answers (yes precise, no precise) reads (plain, both) writes (both >= high) wave "No range, no default.";
 tool ranged(a : number in [0, 1], b : whole = 3, c : force = 2.5 in [-inf, 9], d_ : items = 4 in [1, 100] "told") question
      answers (under approximate, over approximate) reads (plain, graded >= bound) "Ranges, defaults, words.";
 tool limits(least : number = 0.5 in [0, 1], most : delay = 1 in [0, inf]) question
@@ -56,7 +56,7 @@ tool later(least : number = 0.5 in [0.1, 1]) question answers (left, right)
 tool always() question answers (go, stay) guards (go -> cut_both) header "tools/in_one.h" "Guards by nothing.";
 tool make() command answers (done) writes (plain, bounded, where);
 tool make_exact() command answers (done) reads (plain) writes (graded >= exact, both >= high, two >= fine, twin, counted >= all) "All levels.";
-tool tell(n : whole = 3) command answers (done) counts "Counts.";
+tool tell(n : whole = 3) command answers (done) counts wave "Counts.";
 tool note(value : number = 1, slot : whole = 0 in [0, 9]) command answers (done) records header "deep/er/note.h" "Records.";
 
 decision stop;
@@ -125,13 +125,14 @@ END_OF_PROGRAM
 decides() { # WANTED COMPILER...: the graph that asks all, as the skeleton's files answer now
     wanted=$1
     shift
-    "$dagc" -Wno-all --standalone -I made --instrument --trace -o whole.c --header whole.h made/whole.dag &&
+    "$dagc" -Wno-all --standalone -I made --instrument --trace --release=wave -o whole.c --header whole.h made/whole.dag &&
         $* $warnings -o whole whole_main.c whole.c -lm && ./whole >said && grep -q "^$wanted " said || { cat said; return 1; }
 }
 
 check "stub" "$dagc" --emit=stub -o made all.dag
 check "stub-c++" "$dagc" --emit=stub-c++ -o made_cxx all.dag
 check "C and C++ have the same files but for the program's" sh -c 'for at in made made_cxx; do (cd $at; find . -type f | sed "s/main.cpp/main.c/" | sort) >$at.files; done; cmp made.files made_cxx.files'
+check "no header is included twice" sh -c '! for file in $(find made -name "*.h"); do grep "^#include .terms/" $file | sort | uniq -d; done | grep .'
 cp whole.dag made
 set -- "gcc -std=c11" tcc "g++ -x c++"
 [ -z "${THOROUGH-}" ] || set -- "$@" "clang -std=c11" "clang++ -x c++"
