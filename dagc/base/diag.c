@@ -231,13 +231,13 @@ static int by_place(const void *a, const void *b)
     return order != 0 ? order : (x->first > y->first) - (x->first < y->first);
 }
 
-/* One message speaks for itself. */
-static void print_count(int count, const char *what, FILE *out)
+/* One message speaks for itself, but an error among warnings would be looked for in vain. */
+static void print_count(int count, const char *what, int others, FILE *out)
 {
     if (count > ERRORS_SHOWN)
         fprintf(out, "dagc: %d %ss, the first %d found are shown\n", count, what, ERRORS_SHOWN);
-    else if (count > 1)
-        fprintf(out, "dagc: %d %ss\n", count, what);
+    else if (count > 1 || (count == 1 && others > 1))
+        fprintf(out, "dagc: %d %s%s\n", count, what, count > 1 ? "s" : "");
 }
 
 void dag_print_diagnostics(const struct dag *dag, FILE *out)
@@ -257,6 +257,6 @@ void dag_print_diagnostics(const struct dag *dag, FILE *out)
         if (g == 0 || groups[g - 1].where.source != groups[g].where.source)
             print_importers(dag, groups[g].where.source, out);
     }
-    print_count(dag->error_count, "error", out);
-    print_count(dag->warning_count, "warning", out);
+    print_count(dag->error_count, "error", dag->warning_count, out);
+    print_count(dag->warning_count, "warning", 0, out);
 }

@@ -199,6 +199,18 @@ static int set_warning(struct job *job, const char *what)
                : wrong_name("no warning is called", unknown, nearest, "'dagc -W' lists them");
 }
 
+/* What there is one of: is it asked for again, and otherwise? */
+static int is_second(const struct job *job, enum option option, const char *value)
+{
+    const char *had = option == OPTION_OUTPUT    ? job->outputs[OUTPUT_TEXT].path
+                      : option == OPTION_HEADER  ? job->outputs[OUTPUT_HEADER].path
+                      : option == OPTION_DEPFILE ? job->outputs[OUTPUT_DEPFILE].path
+                      : option == OPTION_EMIT    ? job->emit_name
+                      : option == OPTION_DUMP    ? job->dump_name
+                                                 : NULL;
+    return had != NULL && strcmp(had, value) != 0;
+}
+
 /* -1: go on; else the status to exit with. */
 static int set_option(struct job *job, enum option option, const char *value)
 {
@@ -245,7 +257,8 @@ static int set_option(struct job *job, enum option option, const char *value)
         return -1;
     case OPTION_PREFIX:
         job->c.prefix = value;
-        return -1;
+        return dag_is_prefix(value) ? -1
+                                    : wrong("--prefix takes what can begin a C name, not", value);
     case OPTION_HOST:
         job->host[job->c.host_count++] = value;
         return -1;
@@ -259,8 +272,10 @@ static int set_option(struct job *job, enum option option, const char *value)
         job->folders[job->folder_count++] = value;
         return -1;
     case OPTION_EMIT:
+        job->emit_name = value;
         return set_emit(job, value);
     case OPTION_DUMP:
+        job->dump_name = value;
         return set_dump(job, value);
     case OPTION_WARNING:
         return set_warning(job, value);
@@ -318,6 +333,8 @@ static int parse_option(struct job *job, int count, char **arguments, int *at)
                 return wrong("a value is missing after", arguments[*at]);
             value = arguments[++*at];
         }
+        if (is_second(job, (enum option)i, value))
+            return wrong("there can be only one", options[i].spelling);
         return set_option(job, (enum option)i, value);
     }
     return unknown_option(arguments[*at]);
@@ -406,6 +423,8 @@ static const char *contradiction(const struct job *job)
         return "--dump and --depfile mean nothing with --emit=stub";
     if (dag_job_is_catalog(job) && job->stop != PASSES)
         return "--dump shows oracles, not a catalog";
+    if (job->emit_name != NULL && job->stop != PASSES)
+        return "--dump stops before there is anything to --emit: take one";
     if (depfile != NULL && is_standard(out) && (header == NULL || is_standard(header)))
         return "--depfile needs an output file: -o FILE";
     return NULL;

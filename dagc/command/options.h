@@ -18,6 +18,7 @@ enum { OUTPUT_TEXT, OUTPUT_HEADER, OUTPUT_DEPFILE, OUTPUTS };
 
 struct job {
     const char *input_path, *catalog_path; /* catalog_path NULL: the standard catalog */
+    const char *emit_name, *dump_name;     /* as they were asked for; NULL: not */
     enum emit emit;
     enum pass stop; /* --dump; PASSES: none */
     struct warnings warnings;

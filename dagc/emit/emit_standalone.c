@@ -148,7 +148,7 @@ static unsigned char *find_tools(struct dag *dag, const struct amalgam *files)
     return found;
 }
 
-static int is_prefix(const char *text)
+int dag_is_prefix(const char *text)
 {
     int letters = 0;
     for (const char *at = text; *at != '\0'; at++) {
@@ -165,10 +165,6 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
 {
     const char *prefix = options->prefix != NULL ? options->prefix : dag->oracles[0].name;
     struct standalone s = {0};
-    if (!is_prefix(prefix)) {
-        dag_error(dag, dag_nowhere, "'%s' cannot begin a C name", prefix);
-        return;
-    }
     s.dag = dag;
     s.options = *options;
     s.reached = dag_emit_reached_tools(dag);

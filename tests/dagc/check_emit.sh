@@ -242,7 +242,7 @@ for compiler; do
     [ -x "$engine" ] && check "$compiler decides as the engine does" cmp wanted got
 done
 [ -x "$engine" ] || echo "skipped: no $engine to compare with"
-check "--prefix" status 1 "$dagc" --standalone --prefix 9x -o x.c --header x.h "$bf"
+check "--prefix" status 2 "$dagc" --standalone --prefix 9x -o x.c --header x.h "$bf"
 check "no --standalone" status 2 "$dagc" --prefix x "$bf"
 check "a proof writes nothing" status 2 "$dagc" --prove -o x.c "$bf"
 check "no header with a proof" status 2 "$dagc" --prove --header x.h "$bf"

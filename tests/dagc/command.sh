@@ -147,6 +147,15 @@ check "many warnings" fails_with 0 'warnings, the first 50 found are shown' "$da
 check "--emit nearly right" fails_with 2 "did you mean 'json'?" "$dagc" --emit=jsn good.dag
 check "--dump nearly right" fails_with 2 "did you mean 'resolve'?" "$dagc" --dump=resolv good.dag
 check "an option nearly right" fails_with 2 "did you mean '--header'?" "$dagc" --heder=x good.dag
+check "--prefix that begins no C name" fails_with 2 'can begin a C name, not 1x' $run --prefix=1x --standalone -o x.c --header x.h good.dag
+check "-o twice" fails_with 2 'there can be only one -o' $run -o x.c -o y.c good.dag
+check "--emit twice" fails_with 2 'there can be only one --emit' $run --emit=c --emit=dot good.dag
+check "--emit and --dump" fails_with 2 'take one' $run --emit=c --dump=parse good.dag
+check "the same twice" $run --emit=none --emit=none good.dag
+cat >mixed.dag <<'END'
+oracle t { param p : flux = 1; param q : flux = 1; start n0; node n0 = look() { left -> drop; otherwise -> drop; } node n1 = look() { left -> drop; otherwise -> drop; } }
+END
+check "an error among warnings is counted, too" fails_with 1 'dagc: 1 error' "$dagc" -Werror=unreachable-node --catalog catalog.dag --emit=none mixed.dag
 for arguments in '--dump' '--dump=x good.dag' '--depfile x.d good.dag' '-o x --depfile x good.dag' \
     '-o x --depfile good.dag good.dag' '--emit=json --header x.h good.dag' \
     '--emit=catalog --dump=parse catalog.dag' '--emit=catalog --header x.h catalog.dag'; do
