@@ -1,7 +1,6 @@
 /* main.c - the command radiosity: parse the options, see that what shall be written can be, run the
  * command.
  * SPDX-License-Identifier: MIT */
-#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,6 +10,7 @@
 #include "commands/commands.h"
 #include "hand.h"
 #include "study/study.h"
+#include "util/atomic_file.h"
 #include "util/device.h"
 #include "util/heap.h"
 #include "util/machines.h"
@@ -93,17 +93,12 @@ static int check_and_run(const struct options *o)
 /* Standard output that is full or closed is an error like that of any file. */
 static int flush_output(int status)
 {
-    int failed = ferror(stdout);
-    errno = 0;
-    if (!fflush(stdout) && !failed)
+    const int cause = stream_flush(stdout);
+    if (!cause || status)
         return status;
-    /* A write before this one failed and nobody heard why: the next fails for the same cause. */
-    if (failed && !errno && write(STDOUT_FILENO, "\n", 1) == 1)
-        errno = EIO;
-    if (status == 0)
-        report_error("standard output", 0, "cannot write: %s; free some space or write elsewhere",
-                     strerror(errno ? errno : EIO));
-    return status == 0 ? 1 : status;
+    report_error("standard output", 0, "cannot write: %s; free some space or write elsewhere",
+                 strerror(cause));
+    return 1;
 }
 
 int main(int count, char **arguments)

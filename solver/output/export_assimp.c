@@ -92,6 +92,15 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *path, const cha
     return file;
 }
 
+/* Whether a disk, and not Assimp, is why files are not written: Assimp says of it what it likes. */
+static int disk_failed(const struct written_files *files)
+{
+    for (int i = 0; i < files->count; i++)
+        if (ferror(files->slot[i].out.stream))
+            return 1;
+    return 0;
+}
+
 static void close_file(struct aiFileIO *io, struct aiFile *file)
 {
     (void)io, (void)file; /* open until the export is known to have worked */
@@ -313,7 +322,9 @@ int export_assimp(const char *path, const char *id, const struct surfaces *surfa
                          && !files->failed
                      ? 0
                      : -1;
-        if (result && !files->failed)
+        if (disk_failed(files))
+            result = 0; /* the commit fails, and says why */
+        else if (result && !files->failed)
             report_error(path, 0, "cannot be written: %s; write .ply instead",
                          assimp->aiGetErrorString());
     }

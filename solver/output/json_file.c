@@ -1,5 +1,6 @@
 /* json_file.c - see json_file.h.
  * SPDX-License-Identifier: MIT */
+#include <errno.h>
 #include <string.h>
 #include "util/atomic_file.h"
 #include "output/json_file.h"
@@ -19,8 +20,10 @@ int json_file_write(const char *path, json_t *value)
         return report_error(path, 0, "out of memory");
     int result;
     if (strcmp(path, "-") == 0) {
-        result = dump(value, stdout) < 0 || fflush(stdout) != 0
-                     ? report_error("standard output", 0, "cannot be written")
+        const int dumped = dump(value, stdout), cause = stream_flush(stdout);
+        result = dumped < 0 || cause
+                     ? report_error("standard output", 0, "cannot write: %s; write elsewhere",
+                                    strerror(cause ? cause : ENOMEM))
                      : 0;
     } else {
         struct atomic_file file;

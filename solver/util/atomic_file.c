@@ -114,11 +114,20 @@ int atomic_check(const char *path)
     return 0;
 }
 
+int stream_flush(FILE *stream)
+{
+    if (!ferror(stream))
+        return fflush(stream) ? errno : 0;
+    /* What errno said of the write that failed, others have written over: another one says it
+     * again, by all likelihood. */
+    clearerr(stream);
+    return (putc('\n', stream) == EOF || fflush(stream)) && errno ? errno : EIO;
+}
+
 int atomic_commit(struct atomic_file *file)
 {
     /* Errors may show only when the last block leaves the buffer, or at close. */
-    int failed = ferror(file->stream) || fflush(file->stream);
-    int cause = errno;
+    int cause = stream_flush(file->stream), failed = cause != 0;
     if (fclose(file->stream) && !failed) {
         failed = 1;
         cause = errno;

@@ -26,6 +26,10 @@ int atomic_check(const char *path);
 int atomic_open(struct atomic_file *file, const char *path);
 int atomic_commit(struct atomic_file *file);
 
+/* Whether all that was written to a stream has left its buffer: 0, or errno of why it has not, if
+ * it was an earlier write, too. Errors of a stream that failed are cleared. */
+int stream_flush(FILE *stream);
+
 /* The same without a line, in the commit, too: of what has been told. */
 int atomic_open_silently(struct atomic_file *file, const char *path);
 

@@ -280,6 +280,17 @@ for arguments in oracles --help "solve $scenes/furnace.obj"; do
     [ $? = 1 ] && grep -q "^standard output: error: cannot write: Bad file" err || failed "$arguments without standard output"
     rm -f err
 done
+# So is a file, whoever writes it and however long ago the write was that failed.
+for format in ply obj gltf glb; do
+    count=$((count + 1))
+    ln -s /dev/full full.$format
+    "$radiosity" solve "$scenes/cornell.obj" -q -o full.$format --no-correct --no-errors >out 2>err
+    [ $? = 1 ] && grep -q "^full.$format: error: cannot write: No space left on device; free" err && [ "$(wc -l <err)" = 1 ] ||
+        failed "a full disk, .$format: $(cat err)"
+done
+count=$((count + 1))
+"$radiosity" solve "$scenes/furnace.obj" -q --json - >/dev/full 2>err
+[ $? = 1 ] && grep -q "^standard output: error: cannot write: No space left" err && [ "$(wc -l <err)" = 1 ] || failed "--json - to a full device: $(cat err)"
 # A pipe nobody reads must not be waited for.
 count=$((count + 1))
 mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
