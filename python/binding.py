@@ -12,6 +12,7 @@ from cffi import FFI
 BUILD = os.environ.get("BUILD", "build")
 
 DECLARATIONS = """
+static char *const RADIOSITY_VERSION;
 typedef struct RadDeviceObject *RadDevice;
 typedef struct RadSceneObject *RadScene;
 typedef struct RadOracleObject *RadOracle;
@@ -26,10 +27,8 @@ enum RadRelease { RAD_RELEASE_FLAT, RAD_RELEASE_DAG, ... };
 enum RadBasis { RAD_BASIS_CONSTANT, RAD_BASIS_LINEAR, ... };
 
 struct RadDeviceOptions { int threads; ...; };
-typedef void (*RadMessageFunction)(void *user, enum RadError code, const char *message);
 RadDevice radNewDevice(const struct RadDeviceOptions *options);
 void radReleaseDevice(RadDevice device);
-void radSetDeviceMessageFunction(RadDevice device, RadMessageFunction function, void *user);
 enum RadError radGetDeviceError(RadDevice device);
 const char *radGetDeviceErrorMessage(RadDevice device);
 
@@ -100,12 +99,13 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle,
 void radReleaseExchange(RadExchange exchange);
 double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
 struct RadExchangeReport { uint64_t links, pairs, rays; double low, high;
-                           uint32_t rows_closed, rows_open, rows_covered;
-                           double defect_most, defect_mean, environment_most, environment_mean,
-                                  closure_change, closure_left; ...; };
+                           uint32_t rows_closed, rows_open, rows_backs, rows_covered;
+                           double defect_most, defect_mean, worst; uint32_t worst_row;
+                           double environment_most, environment_mean, backs_most, backs_mean,
+                                  closure_change, closure_left;
+                           struct { double refine, fill; } seconds; double entry_error; };
 void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report);
 
-extern "Python" void radiosity_message(void *, enum RadError, const char *);
 extern "Python" int radiosity_progress(void *, const struct RadProgress *);
 extern "Python" size_t radiosity_state_read(void *, void *, size_t);
 extern "Python" enum RadStateWish radiosity_state_asked(void *);

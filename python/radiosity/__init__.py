@@ -13,10 +13,13 @@ Any thread may call; a scene does one thing at a time, others wait. Other Python
 ends a computation.
 SPDX-License-Identifier: MIT
 """
+from ._engine import ffi, lib
 from ._device import Cancelled, InvalidInput, OutOfMemory, RadiosityError, RadiosityWarning
 from ._factors import ViewFactors
 from ._scene import Scene
 from ._solution import Solution, oracles
 
+__version__ = ffi.string(lib.RADIOSITY_VERSION).decode()
+del ffi, lib
 __all__ = ["Cancelled", "InvalidInput", "OutOfMemory", "RadiosityError", "RadiosityWarning", "Scene", "Solution",
            "ViewFactors", "oracles"]

@@ -62,12 +62,6 @@ def _keep_failure(_kind, failure, _trace):
     return 0 if _running.told.state else 1
 
 
-@ffi.def_extern()
-def radiosity_message(user, code, message):
-    if code == lib.RAD_ERROR_NONE:
-        ffi.from_handle(user).warnings.append(ffi.string(message).decode(errors="replace"))
-
-
 @ffi.def_extern(onerror=_keep_failure, error=1)
 def radiosity_progress(user, progress):
     told = ffi.from_handle(user)
@@ -127,7 +121,6 @@ class Device:
         self._user = ffi.new_handle(self._told)
         self._lock = threading.Lock()
         self._owner = None
-        lib.radSetDeviceMessageFunction(self.handle, lib.radiosity_message, self._user)
         lib.radSetDeviceProgressFunction(self.handle, lib.radiosity_progress, self._user)
 
     def call(self, function, *arguments, progress=None, release=None, resume=None):

@@ -43,7 +43,11 @@ class ViewFactors:
         groups = self._groups if groups is None else np.asarray(groups)
         if groups is None or groups.shape != (len(self),):
             raise InvalidInput(f"groups must be a label for each of the {len(self)} faces")
-        names, number = np.unique(groups, return_inverse=True)
+        try:
+            names, number = np.unique(groups, return_inverse=True)
+        except TypeError:
+            raise InvalidInput("groups has labels of several kinds, which have no order; give numbers alone, or "
+                               "text alone") from None
         member = scipy.sparse.csr_matrix((np.ones(len(self)), (number, np.arange(len(self)))))
         areas = member @ self.areas
         share = np.divide(1.0, areas, out=np.zeros_like(areas), where=areas > 0)

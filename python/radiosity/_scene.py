@@ -115,15 +115,21 @@ class Scene:
 
 
 def _whole(name, value):
-    if int(value) != value or not 0 <= value < 2**31:
+    try:
+        whole = int(value)
+    except (TypeError, ValueError, OverflowError):  # None, nan, inf
+        whole = -1
+    if whole != value or not 0 <= whole < 2**31:
         raise InvalidInput(f"{name} is {value!r}; it must be a whole number, 0 or more")
-    return int(value)
+    return whole
 
 
 def _vertices(vertices):
     given = np.asarray(vertices)
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iuf":
         raise InvalidInput(f"vertices has shape {given.shape} of {given.dtype}; it must be numbers, (n, 3)")
+    if len(given) == 0:
+        raise InvalidInput("there are no vertices; give those that faces are made of")
     if not np.isfinite(given).all():
         at = int(np.flatnonzero(~np.isfinite(given).all(axis=1))[0])
         raise InvalidInput(f"vertex {at} is {given[at].tolist()}; coordinates must be finite")

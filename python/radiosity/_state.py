@@ -2,12 +2,14 @@
 
 The engine says when its work can be put down; what ends a run, an exception of the progress function or Ctrl-C among
 them, waits until then. Invariant: the file is a whole state, of this work, or it is not there: a new one is written
-beside it and takes its name. Where none can be written the work goes on without, and a warning says so.
+beside it and takes its name. Where none can be written the work does not begin; where none can be any more, it goes on
+without, and a warning says so.
 SPDX-License-Identifier: MIT
 """
 import os
 import time
 
+from ._device import InvalidInput
 from ._engine import ffi, lib
 
 EVERY = 10  # s between states; and no more than a twentieth of the time
@@ -18,6 +20,8 @@ class State:
 
     def __init__(self, path):
         self.path, self.told = os.fsdecode(path), None
+        if not self.path:
+            raise InvalidInput("resume is an empty name; give that of a file, or None for no file")
         self.stop = False  # somebody wants no more
         self.begun = False  # something was read: what is refused then is the file
         self._broken = None  # why no state can be written
@@ -37,7 +41,17 @@ class State:
             pass
         else:
             self.host.read = lib.radiosity_state_read
+        try:  # hours of work are not begun for a file that cannot be
+            with self._beside() as file:
+                os.unlink(file.name)
+        except OSError as error:
+            if self._in:
+                self._in.close()
+            raise type(error)(error.errno, error.strerror, self.path) from None
         return self
+
+    def _beside(self):
+        return open(f"{self.path}.{os.getpid()}.tmp", "wb")
 
     def __exit__(self, *_):
         if self._in:
@@ -62,7 +76,7 @@ class State:
         try:
             if not self._out:
                 self._began = time.monotonic()
-                self._out = open(f"{self.path}.{os.getpid()}.tmp", "wb")
+                self._out = self._beside()
             if data is not None:
                 self._out.write(data)
                 return 0

@@ -25,7 +25,7 @@ export PYTHONPATH PYTHONDONTWRITEBYTECODE
 check "nothing is left in the tree" sh -c "! find '$top' -path '$top/.git' -prune -o \( -name '*.egg-info' -o -name __pycache__ \) -print | grep -v -e '/build'"
 check "one extension, which needs no libradiosity" sh -c "objdump -p site/radiosity/_engine*.so >needs && grep -q NEEDED needs && ! grep 'NEEDED.*radiosity' needs"
 version=$(sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' "$top/runtime/radiosity.h")
-check "its version is the library's" "$python" -c "from importlib.metadata import version; assert version('radiosity') == '$version'"
+check "its version is the library's" "$python" -c "from importlib.metadata import version; import radiosity; assert version('radiosity') == radiosity.__version__ == '$version'"
 check "the package" timeout 120 "$python" -W error::ResourceWarning "$top/tests/python/test_package.py"
 grep '^package: ' out
 # The example's balance: what floor, window and fresh air bring is nothing in all; insulated surfaces bring nothing.

@@ -7,6 +7,7 @@ SPDX-License-Identifier: MIT
 """
 import gc
 import os
+import re
 import signal
 import sys
 import tempfile
@@ -203,6 +204,10 @@ def test_errors():
             ("face 5 has material 1000000000, but there are 2 rows", (CORNERS, CUBE, [0, 0, 0, 0, 1, 10**9]),
              {"reflectance": [[0.1, 0.1, 0.1], [0.2, 0.2, 0.2]]}),
             ("threads is -1", (CORNERS, CUBE), {"threads": -1}),
+            ("threads is nan; it must be a whole number", (CORNERS, CUBE), {"threads": np.nan}),
+            ("threads is inf; it must be a whole number", (CORNERS, CUBE), {"threads": np.inf}),
+            ("threads is None; it must be a whole number", (CORNERS, CUBE), {"threads": None}),
+            ("there are no vertices", (np.zeros((0, 3)), [[0, 1, 2]]), {}),
             ("one label for each of the 6 faces", (CORNERS, CUBE), {"groups": "a"})):
         raises(wrong, text, make, *arguments, **named)
     scene = make(CORNERS, CUBE)
@@ -212,8 +217,24 @@ def test_errors():
     raises(wrong, "cannot read none.dag", scene.solve, "none.dag")
     raises(wrong, "no parameter 'x'; it has energy", scene.solve, parameters={"x": 1})
     raises(TypeError, "from_arrays", radiosity.Scene)
-    near(scene.view_factors().matrix.toarray(), EXACT, 1e-7)  # as good as before
+    factors = scene.view_factors()
+    near(factors.matrix.toarray(), EXACT, 1e-7)  # as good as before
+    raises(wrong, "labels of several kinds", factors.by, np.array([None, 1, "a", "a", 2, 2], dtype=object))
     assert "power" in radiosity.oracles()
+
+
+def test_report():
+    """All that the header has of the report."""
+    header = os.path.join(os.path.dirname(__file__), "..", "..", "runtime", "radiosity.h")
+    with open(header, encoding="utf-8") as file:
+        text = re.sub(r"/\*.*?\*/", "", file.read(), flags=re.S)
+    inside = re.search(r"struct RadExchangeReport \{(.*?)\n\};", text, re.S).group(1)
+    nested = re.search(r"struct \{(.*?)\} seconds;", inside, re.S)
+    names = [re.findall(r"\w+(?=[,;])", part) for part in (inside.replace(nested.group(0), ""), nested.group(1))]
+    report = radiosity.Scene.from_arrays(CORNERS, CUBE).view_factors().report
+    assert len(names[0]) > 15 and set(names[0]) | {"seconds"} == set(vars(report)), (names, report)
+    assert set(names[1]) == set(vars(report.seconds)) and report.seconds.refine >= 0, report
+    assert 0 <= report.entry_error < 1 and report.rows_backs == 0 and report.worst <= report.defect_most, report
 
 
 def test_warnings():
@@ -313,10 +334,18 @@ def test_resume():
         assert (factors.matrix != whole.matrix).nnz == 0 and (factors.row_sums == whole.row_sums).all()
         raises(TypeError, "float", long_factors(1).view_factors, resume=3.5)
         raises(IsADirectoryError, folder, long_factors(1).view_factors, resume=folder)
+        raises(radiosity.InvalidInput, "an empty name", long_factors(1).view_factors, resume="")
+        told = []
+        raises(FileNotFoundError, "none", long_factors(1).view_factors, progress=told.append,
+               resume=os.path.join(folder, "none", "state"))
+        assert told == [], told  # refused before there was work
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            raises(radiosity.Cancelled, "", long_factors(1).view_factors, progress=stop,
-                   resume=os.path.join(folder, "none", "state"))
+            there = os.path.join(folder, "there")
+            os.mkdir(there)
+            raises(radiosity.Cancelled, "", long_factors(1).view_factors,
+                   progress=lambda p: os.path.exists(there) and os.rmdir(there) or stop(p),
+                   resume=os.path.join(there, "state"))
         assert len(said) == 1 and "cannot be written" in str(said[0].message), said
 
 
