@@ -79,8 +79,7 @@ struct RadDeviceOptions {
     const char *temporary; /* folder for what it makes; NULL: "/tmp" */
 };
 
-/* Told of every error (code) and of every warning (RAD_ERROR_NONE), from the calling thread;
- * `message` is good until it returns. */
+/* Told of every error, from the calling thread; `message` is good until it returns. */
 typedef void (*RadMessageFunction)(void *user, enum RadError code, const char *message);
 
 /* NULL options: the defaults. Returns NULL when out of memory. */
@@ -114,9 +113,9 @@ RAD_API const char *radGetDeviceErrorMessage(RadDevice device);
 /* Where long work is. All counts rise; 0 where the phase has none. */
 struct RadProgress {
     /* "refine", "solve", "matrix" (of RAD_SOLVER_LU, which says nothing until it is done),
-     * "particles", "paths", "account", "factors", "again" (rows of view factors that do not add up
-     * are looked at a second time); "resumed": once, what a run before this one had
-     * done (struct RadExchangeState) */
+     * "particles", "paths", "account", "causes", "factors", "again" (rows of view factors that do
+     * not add up are looked at a second time); "resumed": once, what a run before this one had done
+     * (struct RadExchangeState) */
     const char *phase;
     int pass; /* from 1 */
     uint64_t rounds, pairs, waiting, links;

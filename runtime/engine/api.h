@@ -91,6 +91,7 @@ struct RadSolutionObject {
     struct solve_state state;       /* of radGetSolutionState */
     RadPassFunction between;        /* of radSetSolutionPassFunction; NULL: none */
     void *between_user;
+    int between_stopped;
     int done; /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };
@@ -98,7 +99,6 @@ struct RadSolutionObject {
 /* The device's first error becomes this one, unless there is one; its message function is told.
  * Returns -1. */
 int api_fail(RadDevice device, enum RadError code, const char *format, ...) MESSAGE_LIKE(3, 4);
-void api_warn(RadDevice device, const char *format, ...) MESSAGE_LIKE(2, 3);
 
 /* Is there what `what` says a call needs from its caller, a place for its result, say? Returns 0,
  * or -1 with the device told. */

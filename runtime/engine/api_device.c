@@ -141,10 +141,15 @@ const char *radGetDeviceErrorMessage(RadDevice device)
 }
 
 /* The message function is called without the lock, so that it may call the device. */
-static void tell(RadDevice device, enum RadError code, const char *message)
+int api_fail(RadDevice device, enum RadError code, const char *format, ...)
 {
+    va_list list;
+    va_start(list, format);
+    char message[MESSAGE_SIZE];
+    vsnprintf(message, sizeof message, format, list);
+    va_end(list);
     pthread_mutex_lock(&device->lock);
-    if (code != RAD_ERROR_NONE && device->error == RAD_ERROR_NONE) {
+    if (device->error == RAD_ERROR_NONE) {
         device->error = code;
         snprintf(device->message, sizeof device->message, "%s", message);
     }
@@ -153,32 +158,12 @@ static void tell(RadDevice device, enum RadError code, const char *message)
     pthread_mutex_unlock(&device->lock);
     if (function)
         function(user, code, message);
-}
-
-int api_fail(RadDevice device, enum RadError code, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    char message[MESSAGE_SIZE];
-    vsnprintf(message, sizeof message, format, list);
-    va_end(list);
-    tell(device, code, message);
     return -1;
 }
 
 int api_needs(RadDevice device, const void *given, const char *what)
 {
     return given ? 0 : api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "%s, which is NULL", what);
-}
-
-void api_warn(RadDevice device, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    char message[MESSAGE_SIZE];
-    vsnprintf(message, sizeof message, format, list);
-    va_end(list);
-    tell(device, RAD_ERROR_NONE, message);
 }
 
 int api_progress(RadDevice device, const struct RadProgress *progress)

@@ -262,6 +262,8 @@ int api_give_up(RadSolution solution, const char *cause)
     solution->dead = 1;
     if (solution->trace.stopped)
         return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the trace function");
+    if (solution->between_stopped)
+        return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the pass function");
     if (solution->solve.report.cancelled)
         return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
     if (solution->solve.refinement.none)

@@ -43,6 +43,7 @@ static int call_between(void *context)
     RadSolution solution = context;
     const int stop = solution->between(solution->between_user, solution);
     solve_state_free(&solution->state);
+    solution->between_stopped = stop != 0;
     return stop;
 }
 

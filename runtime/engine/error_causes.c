@@ -243,7 +243,7 @@ static int watch(struct walk *w, double length)
         const struct counting counting = {CAUSE_RAYS * done,
                                           fmin((double)done / (double)c->line.points, 1)};
         c->solve->counting = &counting;
-        if (solve_tell(c->solve, "causes"))
+        if (!c->stopped && solve_tell(c->solve, "causes"))
             c->stopped = 1;
         c->solve->counting = NULL;
     }
@@ -279,7 +279,7 @@ static void walk_chunks(const void *walking, size_t from, size_t to)
 {
     const struct walking *g = walking;
     struct walk *w = &g->walks[thread_pool_number()];
-    for (size_t i = from; i < to; i++) {
+    for (size_t i = from; i < to && !w->causes->stopped; i++) {
         w->sums = &g->part[i];
         walk_chunk(w, (uint32_t)i);
     }

@@ -21,7 +21,7 @@ static int write_drawing(const char *path, RadOracle oracle, const json_t *stati
 int command_draw(const struct options *o, const struct open_scene *scene)
 {
     (void)scene;
-    RadDevice device = open_device(NULL, 1);
+    RadDevice device = open_device(1);
     RadOracle oracle =
         device ? open_oracle(device, o->oracle, RAD_RELEASE_DAG, o->settings, o->setting_count)
                : NULL;

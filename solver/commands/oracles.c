@@ -28,7 +28,7 @@ int command_oracles(const struct options *o, const struct open_scene *scene)
 {
     (void)o;
     (void)scene;
-    RadDevice device = open_device(NULL, 1);
+    RadDevice device = open_device(1);
     int status = device ? 0 : -1;
     for (const char *const *name = radGetOracleNames(); *name && status == 0; name++)
         status = print_oracle(device, *name);

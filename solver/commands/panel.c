@@ -22,7 +22,7 @@ static int write_panel(const struct options *o, RadOracle oracle)
 int command_panel(const struct options *o, const struct open_scene *scene)
 {
     (void)scene;
-    RadDevice device = open_device(NULL, 1);
+    RadDevice device = open_device(1);
     RadOracle oracle = device ? open_oracle(device, o->oracle, RAD_RELEASE_DAG, NULL, 0) : NULL;
     int status = oracle ? write_panel(o, oracle) : -1;
     radReleaseOracle(oracle);

@@ -215,9 +215,7 @@ static int run(struct work *w)
 int command_tune(const struct options *o, const struct open_scene *scene)
 {
     (void)scene;
-    struct work w = {.options = o,
-                     .start = seconds(),
-                     .device = open_device(o->quiet ? NULL : o->oracle, o->threads)};
+    struct work w = {.options = o, .start = seconds(), .device = open_device(o->threads)};
     w.tuner = (struct tuner){.cost = (enum tune_cost)o->cost,
                              .basis = o->basis,
                              .target = o->noise,

@@ -17,7 +17,7 @@ int open_whole_scene(struct open_scene *s, const char *path, const struct scene_
     struct RadPolygons polygons = scene_file_polygons(&s->file);
     polygons.turned = turned;
     polygons.cut_long = !options->long_stay;
-    s->device = open_device(options->quiet ? NULL : path, threads);
+    s->device = open_device(threads);
     if (s->device) {
         s->scene = radNewScene(s->device);
         if (s->scene

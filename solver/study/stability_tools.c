@@ -107,7 +107,7 @@ static int make_solution(struct solved *s, const struct made_scene *made,
     int count = 0, status = -1;
     while (how->settings[count])
         count++;
-    RadDevice device = open_device(NULL, how->threads);
+    RadDevice device = open_device(how->threads);
     RadScene scene = device ? commit_scene(device, made) : NULL;
     RadOracle oracle = scene ? open_oracle(device, how->oracle, RAD_RELEASE_FLAT,
                                            (char *const *)how->settings, count)

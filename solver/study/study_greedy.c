@@ -215,7 +215,7 @@ static int measure_scene(const struct options *o, int which, struct row rows[BAS
     struct greedy_face faces[GREEDY_FACES];
     struct greedy g;
     int count = make(which, faces), status = -1;
-    RadDevice device = open_device(NULL, o->threads);
+    RadDevice device = open_device(o->threads);
     RadScene scene = device ? commit(device, faces, count) : NULL;
     if (scene) {
         status = 0;

@@ -25,31 +25,22 @@ void use_plugins(char *const *paths, int count)
     plugin_count = count;
 }
 
-/* Errors are told by whoever made the call, who knows what it was about. */
-static void say_warning(void *where, enum RadError code, const char *message)
-{
-    if (code == RAD_ERROR_NONE)
-        report_warning(where, 0, "%s", message);
-}
-
 static const char *from_environment(const char *name)
 {
     const char *value = getenv(name);
     return value && *value ? value : NULL;
 }
 
-RadDevice open_device(const char *where, int threads)
+RadDevice open_device(int threads)
 {
     const char *folder = temporary_folder();
     const struct RadDeviceOptions options = {threads, from_environment("CC"),
                                              folder ? folder : from_environment("TMPDIR")};
     RadDevice device = machines_device(&options);
     if (!device) {
-        report_device(NULL, where ? where : "radiosity");
+        report_device(NULL, "radiosity");
         return NULL;
     }
-    if (where)
-        radSetDeviceMessageFunction(device, say_warning, (void *)(uintptr_t)where);
     for (int i = 0; hand_releases && hand_releases[i]; i++)
         if (radRegisterOracle(device, hand_releases[i]) < 0) {
             report_device(device, hand_releases[i]->name);

@@ -12,9 +12,8 @@ void register_hand_releases(const struct oracle *const *table);
 /* The files that devices opened from now on load by radLoadPlugin: [count], borrowed. */
 void use_plugins(char *const *paths, int count);
 
-/* `where` names in warnings what they are about, the scene's file as a rule, and is borrowed; NULL:
- * no warnings. Returns NULL after a message. */
-RadDevice open_device(const char *where, int threads);
+/* Returns NULL after a message. */
+RadDevice open_device(int threads);
 
 /* Say what the device's last call could not do, as "where: error: sentence". Returns -1. */
 int report_device(RadDevice device, const char *where);

@@ -1303,8 +1303,9 @@ END_TEST
 
 static int stop_at_causes(void *user, const struct RadProgress *p)
 {
-    (void)user;
-    return strcmp(p->phase, "causes") == 0;
+    int stop = strcmp(p->phase, "causes") == 0;
+    *(int *)user += stop;
+    return stop;
 }
 
 /* Asked too early, of what it does not know, of too much; and cancelled. */
@@ -1323,9 +1324,11 @@ START_TEST(test_causes_refused)
     ck_assert_int_eq(radSolve(solution), 0);
     ck_assert_int_eq(radFindCauses(solution, &many, &r), -1);
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "at most 2^32");
-    radSetDeviceProgressFunction(device, stop_at_causes, NULL);
+    int asked = 0;
+    radSetDeviceProgressFunction(device, stop_at_causes, &asked);
     ck_assert_int_eq(radFindCauses(solution, NULL, &r), -1);
-    expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
+    ck_assert_int_eq(asked, 1); /* not asked again */
+    expect_error(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
     radReleaseSolution(solution);
     solution = radNewSolution(scene, oracle, &linear);
     ck_assert_int_eq(radSolve(solution), 0);
@@ -1391,6 +1394,12 @@ START_TEST(test_cancel)
     radSetDeviceProgressFunction(device, lose_patience, &patience);
     RadSolution whole = radNewSolution(scene, oracle, NULL);
     ck_assert_int_eq(radSolve(whole), 0);
+static int stop_between(void *user, RadSolution solution)
+{
+    (void)solution;
+    return ++*(int *)user;
+}
+
     ck_assert_int_gt(patience.calls, 10);
     radReleaseSolution(whole);
     struct RadLinks links;
@@ -1418,6 +1427,14 @@ START_TEST(test_cancel)
     }
     for (int way = RAD_METHOD_PARTICLES; way <= RAD_METHOD_PATHS; way++) {
         RadReference reference = radNewReference(scene);
+    RadSolution passing = radNewSolution(scene, oracle, NULL);
+    int passes = 0;
+    patience = (struct patience){0, 1 << 30, NULL};
+    radSetSolutionPassFunction(passing, stop_between, &passes);
+    ck_assert_int_eq(radSolve(passing), -1);
+    ck_assert_int_eq(passes, 1);
+    expect_error(device, RAD_ERROR_CANCELLED, "cancelled by the pass function");
+    radReleaseSolution(passing);
         patience = (struct patience){0, 1, way == RAD_METHOD_PATHS ? "paths" : "particles"};
         ck_assert_int_eq(radTraceReference(reference, (enum RadMethod)way, 1 << 22), -1);
         ck_assert_int_eq(patience.calls, 1);
