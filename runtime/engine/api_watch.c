@@ -65,6 +65,9 @@ int radExplain(RadSolution solution, RadOracle oracle, const struct discussion *
     RadDevice device = solution->scene->device;
     if (api_needs(device, oracle, "radExplain needs an oracle") < 0
         || api_needs(device, before, "radExplain needs a discussion") < 0
+        || api_needs(device, before->receiver, "radExplain needs the discussion's receiver") < 0
+        || api_needs(device, before->emitter, "radExplain needs the discussion's emitter") < 0
+        || api_needs(device, before->host, "radExplain needs the discussion's host") < 0
         || api_needs(device, explanation, "radExplain needs a place") < 0 || follow(oracle) < 0)
         return -1;
     if (explain(&oracle->explained, oracle->refiner, before,

@@ -973,6 +973,15 @@ START_TEST(test_no_place)
     REFUSED(radExplain(solution, NULL, &pair, NULL));
     REFUSED(radExplain(solution, oracle, NULL, NULL));
     REFUSED(radExplain(solution, oracle, &pair, NULL));
+    struct RadExplanation explanation;
+    static const struct element some;
+    static const struct host facts;
+    const struct discussion lacks[] = {{0},
+                                       {.emitter = &some, .host = &facts},
+                                       {.receiver = &some, .host = &facts},
+                                       {.receiver = &some, .emitter = &some}};
+    for (size_t i = 0; i < sizeof lacks / sizeof *lacks; i++)
+        REFUSED(radExplain(solution, oracle, &lacks[i], &explanation));
     REFUSED(radGetOracleStatistics(oracle, NULL));
     REFUSED(radGetExchangeLoss(exchange, 0, NULL));
     REFUSED(radGetReferenceReport(reference, NULL));
