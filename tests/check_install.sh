@@ -337,6 +337,8 @@ own=$prefix/share/dagc/interpreter
 check "catalog.h and catalog.c" sh -c "dagc --emit=catalog-h -o catalog.h net.dag && dagc --emit=catalog-c -o catalog.c net.dag && dagc --instrument -o gate.c --header gate.h gate.dag"
 # shellcheck disable=SC2086
 check "the interpreter in a domain of one's own" cc $flags -include net.h -I. -I"$own" -I"$prefix/include/dagc" -o walk walk.c gate.c catalog.c "$own"/oracle/*.c "$own"/util/*.c "$prefix/lib/libdagc.a" -ldl -lm
+# Whatever the runtime's header has included by then.
+check "the interpreter as plain C11" sh -c "echo '#include <stdio.h>' >first.h && cc -std=c11 -Werror=implicit-function-declaration -fsyntax-only -include first.h -include net.h -I. -I'$own' -I'$prefix/include/dagc' '$own'/oracle/*.c '$own'/util/*.c"
 check "it walks as the compiled one" is "00 00 11 " ./walk
 check "it counts as the compiled one" cmp walked called
 check "three packets, one of them long" sh -c "grep -q '^a.* 3 .* no 2 yes 1$' called && grep -q '^b  *1 .* no 1 yes 0$' called"

@@ -1,10 +1,14 @@
 /* load_graph.c - see load_graph.h.
  * SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700 /* open_memstream */
 #include "oracle/load_graph.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* POSIX's, of <stdio.h>. A program of another domain has its runtime's header before all else, and
+ * with -std=c11 that header has settled that there is nothing of POSIX. */
+FILE *open_memstream(char **text, size_t *length);
 
 struct dag *load_graph(const char *path, const struct dag_options *options, const char *name,
                        int *index, struct messages *messages)
