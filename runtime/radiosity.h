@@ -288,7 +288,7 @@ RAD_API void radRetainOracle(RadOracle oracle);
 RAD_API void radReleaseOracle(RadOracle oracle);
 
 struct RadOracleReport {
-    /* the oracle's own; fingerprint "" when interpreted */
+    /* the oracle's own; fingerprint: of its graph, in all releases alike, "" when hand-written */
     const char *name, *release, *doc, *fingerprint;
     const struct oracle_parameter *parameters; /* [parameter_count], the oracle's own */
     int parameter_count;

@@ -113,8 +113,8 @@ int prove_descriptions(struct proof *proof)
         proof->library->describe(release, &got);
         compare_texts(proof, release, "its name", proof->oracle->name, got.name);
         compare_texts(proof, release, "its text", proof->oracle->doc, got.doc);
+        compare_texts(proof, release, "its fingerprint", fingerprint, got.fingerprint);
         if (release == PROVE_FLAT) {
-            compare_texts(proof, release, "its fingerprint", fingerprint, got.fingerprint);
             compare_numbers(proof, release, "the size of its parameters", (double)got.block,
                             (double)got.size);
         }

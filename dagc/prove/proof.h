@@ -61,7 +61,7 @@ struct prove_parameter {
 };
 
 struct prove_description {
-    const char *name, *doc, *fingerprint; /* the interpreter has no fingerprint: NULL */
+    const char *name, *doc, *fingerprint;
     int parameters, reads;
     const int *read;
     size_t size, block; /* of the parameters: as described, in truth */
@@ -84,6 +84,7 @@ struct prove_host {
     int (*reads_fact)(const struct dag *dag, const struct oracle_graph *oracle, int fact);
     const struct node *(*node_at)(const struct dag *dag, const struct oracle_graph *oracle,
                                   int place);
+    void (*fingerprint_text)(const struct oracle_graph *oracle, char text[17]);
     int (*is_doubtful)(const struct dag *dag, const struct argument *argument);
     struct dag_doubt (*doubt)(struct dag *dag, const struct node *node,
                               const struct argument *argument);

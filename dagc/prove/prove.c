@@ -50,8 +50,9 @@ static void report(const struct proof *proof, const struct prove_extent *extent,
 
 static int prove_oracle(struct proof *proof)
 {
-    const struct prove_host host = {proof->dag,  dag_is_fixed,    dag_reads_fact,
-                                    dag_node_at, dag_is_doubtful, dag_doubt};
+    const struct prove_host host = {proof->dag,  dag_is_fixed,         dag_reads_fact,
+                                    dag_node_at, dag_fingerprint_text, dag_is_doubtful,
+                                    dag_doubt};
     int flavours = 1 << PROVE_PLAIN | (proof->options->copies > 1) << PROVE_FIRST
                    | proof->options->counted << PROVE_COUNTED
                    | proof->options->traced << PROVE_TRACED | proof->options->wave << PROVE_WAVE

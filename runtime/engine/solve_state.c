@@ -22,12 +22,6 @@ enum { SEEN = 4 };
 
 /* ---- what it is of */
 
-static uint64_t hash_oracle(const struct refiner *refiner)
-{
-    const char *graph = refiner->fingerprint ? NULL : refiner_graph(refiner, NULL);
-    return state_identity_text(state_identity_oracle(refiner), graph);
-}
-
 /* Those that change the answer; whose picture counts does so only where nothing is kept. Of
  * clusters it is the strategy, whether it was asked for or chosen. */
 static uint64_t hash_options(const struct solve *s)
@@ -46,7 +40,7 @@ static void name_work(uint64_t *head, const struct solve *s, const struct refine
     head[STATE_NAME] = NAME;
     head[STATE_VERSION] = state_identity_version();
     head[STATE_SCENE] = state_identity_scene(&s->problem, &s->hierarchy);
-    head[STATE_ORACLE] = hash_oracle(refiner);
+    head[STATE_ORACLE] = state_identity_oracle(refiner);
     head[STATE_OPTIONS] = hash_options(s);
     head[STATE_BUILT] = s->hierarchy.built;
 }

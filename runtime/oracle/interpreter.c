@@ -188,6 +188,8 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
     r->state = p->steps;
     r->oracle = p->dag->oracles[index].name;
     r->doc = p->dag->oracles[index].doc;
+    dag_fingerprint_text(&p->dag->oracles[index], p->fingerprint);
+    r->fingerprint = p->fingerprint;
     r->release = "dag";
     r->reads = p->reads;
     r->read_count = p->read_count;

@@ -66,6 +66,7 @@ struct program {
     int read_count;
     int answer_count;     /* of all steps */
     uint64_t *ways;       /* of all steps, as next: see follow.h; NULL: not numbered, or too many */
+    char fingerprint[17]; /* the graph's, as compiled releases have it */
     char *graph_json;     /* made when asked for; NULL: not yet */
     uint64_t counting;    /* which of all countings this is; 0: nothing is counted */
     struct program *self; /* so that a walk, which has a const one, can add its thread's counters */

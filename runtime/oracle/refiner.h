@@ -14,7 +14,7 @@ struct refiner {
     void (*wave)(const void *state, struct discussion *block, int count, enum decision *decisions);
     const void *state; /* a parameter structure, or the interpreter's program */
     const char *oracle, *release, *doc;
-    const char *fingerprint; /* of the graph it was compiled from; NULL when interpreted */
+    const char *fingerprint; /* of its graph, in all releases alike; NULL when hand-written */
     const struct oracle_parameter *parameters; /* [parameter_count] */
     int parameter_count;
     const int *reads; /* [read_count], enum catalog_fact: what its arguments read */

@@ -1394,6 +1394,12 @@ static int lose_patience(void *user, const struct RadProgress *p)
     return ++patience->calls >= patience->most;
 }
 
+static int stop_between(void *user, RadSolution solution)
+{
+    (void)solution;
+    return ++*(int *)user;
+}
+
 START_TEST(test_cancel)
 {
     RadDevice device = radNewDevice(NULL);
@@ -1403,12 +1409,6 @@ START_TEST(test_cancel)
     radSetDeviceProgressFunction(device, lose_patience, &patience);
     RadSolution whole = radNewSolution(scene, oracle, NULL);
     ck_assert_int_eq(radSolve(whole), 0);
-static int stop_between(void *user, RadSolution solution)
-{
-    (void)solution;
-    return ++*(int *)user;
-}
-
     ck_assert_int_gt(patience.calls, 10);
     radReleaseSolution(whole);
     struct RadLinks links;
@@ -1427,6 +1427,14 @@ static int stop_between(void *user, RadSolution solution)
         radReleaseSolution(solution);
         expect_error(device, RAD_ERROR_INVALID_OPERATION, "release it");
     }
+    RadSolution passing = radNewSolution(scene, oracle, NULL);
+    int passes = 0;
+    patience = (struct patience){0, 1 << 30, NULL};
+    radSetSolutionPassFunction(passing, stop_between, &passes);
+    ck_assert_int_eq(radSolve(passing), -1);
+    ck_assert_int_eq(passes, 1);
+    expect_error(device, RAD_ERROR_CANCELLED, "cancelled by the pass function");
+    radReleaseSolution(passing);
     static const char *const phases[] = {"refine", "factors"};
     for (int i = 0; i < 2; i++) {
         patience = (struct patience){0, 1, phases[i]};
@@ -1436,14 +1444,6 @@ static int stop_between(void *user, RadSolution solution)
     }
     for (int way = RAD_METHOD_PARTICLES; way <= RAD_METHOD_PATHS; way++) {
         RadReference reference = radNewReference(scene);
-    RadSolution passing = radNewSolution(scene, oracle, NULL);
-    int passes = 0;
-    patience = (struct patience){0, 1 << 30, NULL};
-    radSetSolutionPassFunction(passing, stop_between, &passes);
-    ck_assert_int_eq(radSolve(passing), -1);
-    ck_assert_int_eq(passes, 1);
-    expect_error(device, RAD_ERROR_CANCELLED, "cancelled by the pass function");
-    radReleaseSolution(passing);
         patience = (struct patience){0, 1, way == RAD_METHOD_PATHS ? "paths" : "particles"};
         ck_assert_int_eq(radTraceReference(reference, (enum RadMethod)way, 1 << 22), -1);
         ck_assert_int_eq(patience.calls, 1);
@@ -1580,6 +1580,38 @@ START_TEST(test_state_of_clusters)
 }
 END_TEST
 
+/* Of one graph's releases each goes on from the other's state, to the same bits. */
+START_TEST(test_state_of_releases)
+{
+    static const enum RadRelease release[] = {RAD_RELEASE_FLAT, RAD_RELEASE_DAG};
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    struct RadReport whole, then;
+    for (int i = 0; i < 2; i++) {
+        RadOracle first = radNewOracle(device, "bf_guarded", release[i]),
+                  second = radNewOracle(device, "bf_guarded", release[!i]);
+        RadSolution from = radNewSolution(scene, first, NULL),
+                    to = radNewSolution(scene, second, NULL);
+        struct RadStatePart part[RAD_STATE_PARTS];
+        ck_assert_int_eq(radRefine(from), 0);
+        ck_assert_int_eq(radGetSolutionState(from, part), 0);
+        ck_assert_msg(radSetSolutionState(to, part) == 0, "%s", radGetDeviceErrorMessage(device));
+        ck_assert_int_eq(radSolve(from), 0);
+        ck_assert_int_eq(radSolve(to), 0);
+        radGetReport(from, &whole);
+        radGetReport(to, &then);
+        ck_assert_uint_eq(whole.link_fingerprint, then.link_fingerprint);
+        ck_assert(whole.absorbed == then.absorbed);
+        radReleaseSolution(from);
+        radReleaseSolution(to);
+        radReleaseOracle(first);
+        radReleaseOracle(second);
+    }
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* Handles keep alive what they were made from, in whatever order they are given up. */
 START_TEST(test_lifetimes)
 {
@@ -1637,6 +1669,7 @@ int main(void)
     tcase_add_test(t, test_count_side_by_side);
     tcase_add_test(t, test_no_state);
     tcase_add_test(t, test_state_of_clusters);
+    tcase_add_test(t, test_state_of_releases);
     tcase_add_test(t, test_lifetimes);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
