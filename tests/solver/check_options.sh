@@ -290,6 +290,7 @@ for format in ply obj gltf glb; do
 done
 count=$((count + 1))
 "$radiosity" solve "$scenes/furnace.obj" -q --json - >/dev/full 2>err
+    rm -f full.$format out err
 [ $? = 1 ] && grep -q "^standard output: error: cannot write: No space left" err && [ "$(wc -l <err)" = 1 ] || failed "--json - to a full device: $(cat err)"
 # A pipe nobody reads must not be waited for.
 count=$((count + 1))
