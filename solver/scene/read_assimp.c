@@ -162,6 +162,12 @@ static int import(struct scene_file *file, const char *path)
     const char *cause = r.assimp->aiGetErrorString();
     if (strstr(cause, "bad_alloc") || strstr(cause, "length_error"))
         return IMPORT_MEMORY;
+    const char *dot = strrchr(path, '.');
+    if (strstr(cause, "No suitable reader") && dot && r.assimp->aiIsExtensionSupported(dot))
+        return report_error(
+            path, 0,
+            "cannot be read as a scene: it is empty or damaged, or not what its name "
+            "says; make it anew");
     if (strstr(cause, "No suitable reader"))
         return report_error(path, 0,
                             "cannot be read as a scene: a format that is not known here; check the "

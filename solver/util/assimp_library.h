@@ -14,8 +14,8 @@
 #define ASSIMP_FUNCTIONS(each) \
     each(aiExportSceneEx) each(aiGetErrorString) each(aiGetMaterialColor) \
         each(aiGetMaterialFloatArray) each(aiGetMaterialIntegerArray) each(aiGetMaterialString) \
-            each(aiIdentityMatrix4) each(aiImportFile) each(aiMatrix4Determinant) \
-                each(aiMultiplyMatrix4)
+            each(aiIdentityMatrix4) each(aiImportFile) each(aiIsExtensionSupported) \
+                each(aiMatrix4Determinant) each(aiMultiplyMatrix4)
 #define ASSIMP_MEMBER(name) __typeof__(name) *name;
 struct assimp {
     ASSIMP_FUNCTIONS(ASSIMP_MEMBER)

@@ -23,9 +23,10 @@ static int fail(struct atomic_file *file, int cause)
     if (!file->silent)
         report_error(file->path ? file->path : "output", 0, "cannot write: %s; %s", strerror(cause),
                      cause == ENOENT || cause == ENOTDIR ? "make the folder first"
-                     : cause == EISDIR ? "give the name of a file, not of a folder"
-                     : cause == ENOSPC ? "free some space or write elsewhere"
-                                       : "choose a place where you may write");
+                     : cause == EISDIR       ? "give the name of a file, not of a folder"
+                     : cause == ENAMETOOLONG ? "give it a shorter name"
+                     : cause == ENOSPC       ? "free some space or write elsewhere"
+                                             : "choose a place where you may write");
     atomic_discard(file);
     return -1;
 }

@@ -295,6 +295,14 @@ count=$((count + 1))
 # A pipe nobody reads must not be waited for.
 count=$((count + 1))
 mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
+says 1 "File name too long; give it a shorter name" solve "$scene" --json "$(printf '%0300d' 0)"
+# A format that is known, and a file that holds nothing of it.
+mkdir "$tmp.damaged"
+: >"$tmp.damaged/empty.glb" && says 1 "empty.glb: error: cannot be read as a scene: it is empty or damaged" solve "$tmp.damaged/empty.glb"
+head -c 300 /dev/zero >"$tmp.damaged/zero.glb" && says 1 "zero.glb: error: cannot be read as a scene: it is empty or damaged" solve "$tmp.damaged/zero.glb"
+: >"$tmp.damaged/empty.foo" && says 1 "a format that is not known here" solve "$tmp.damaged/empty.foo"
+printf 'v 0x10 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n' >"$tmp.damaged/hex.obj" && says 1 "hex.obj:1" solve "$tmp.damaged/hex.obj"
+rm -r "$tmp.damaged"
 [ $? = 1 ] && grep -q none.obj err || failed "a pipe as output"
 
 # ---- examples of help and man page that need no other file run as they stand
