@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options/option_table.h"
 #include "util/report.h"
 
 /* A parameter is looked for up to so many quarters of doublings from its default where no range is
@@ -88,13 +89,8 @@ static int add_wanted(struct tuner *t, const struct RadOracleReport *report, con
                             p->name, p->value);
     if (!text[length])
         return add(t, p, p->value * exp2(-FARTHEST / 4.0), p->value * exp2(FARTHEST / 4.0));
-    char *end, *last;
-    double low = strtod(text + length + 1, &end), high = *end == ':' ? strtod(end + 1, &last) : 0;
-    if (*end != ':' || end == text + length + 1 || last == end + 1 || *last || !(low > 0)
-        || !(high >= low) || !isfinite(high))
-        return report_error("--param", 0, "%s: write NAME=LOW:HIGH with numbers 0 < LOW <= HIGH",
-                            text);
-    return add(t, p, low, high);
+    double low, high;
+    return option_range(text + length + 1, &low, &high) < 0 ? -1 : add(t, p, low, high);
 }
 
 int tune_parameters(struct tuner *t, const char *name, char *const *wanted, int count)

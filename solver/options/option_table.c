@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "options/option_table.h"
 #include "util/array.h"
+#include "util/decimal.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -68,7 +69,7 @@ static int read_scale(struct options *o, const struct option_row *row, const cha
     o->no_links = strcmp(value, "none") == 0;
     if (o->no_links)
         return 0;
-    o->scale = strtod(value, &end);
+    o->scale = decimal(value, &end);
     return end == value || *end || !(o->scale >= 1e-6 && o->scale <= 1e6) ? -1 : 0;
 }
 
@@ -76,7 +77,7 @@ static int read_tolerance(struct options *o, const struct option_row *row, const
 {
     (void)row;
     char *end;
-    o->tolerance = strtod(value, &end);
+    o->tolerance = decimal(value, &end);
     return end == value || *end || !(o->tolerance > 0 && o->tolerance < 1) ? -1 : 0;
 }
 
@@ -92,7 +93,7 @@ static int read_errors(struct options *o, const struct option_row *row, const ch
 static int read_share(struct options *o, const struct option_row *row, const char *value)
 {
     char *end;
-    double share = strtod(value, &end);
+    double share = decimal(value, &end);
     int percent = end != value && strcmp(end, "%") == 0;
     share /= percent ? 100 : 1;
     if (end == value || end[percent] || !(share >= 0 && share < 1) || (row->low && !(share > 0)))
@@ -133,7 +134,7 @@ static int read_limits(struct options *o, const struct option_row *row, const ch
         while (k < count && strncmp(value, keys[k].key, strlen(keys[k].key)) != 0)
             k++;
         char *end;
-        double n = k < count ? strtod(value + strlen(keys[k].key), &end) : 0;
+        double n = k < count ? decimal(value + strlen(keys[k].key), &end) : 0;
         if (!(n >= 1 && n <= (double)keys[k < count ? k : 0].most) || n != (double)(uint64_t)n)
             return -1;
         if (keys[k].limit)
@@ -146,15 +147,43 @@ static int read_limits(struct options *o, const struct option_row *row, const ch
     }
 }
 
-static int read_setting(struct options *o, const struct option_row *row, const char *value)
+static int keep_setting(struct options *o, const char *value)
 {
-    (void)row;
     if (array_reserve(&o->settings, (size_t)o->setting_count + 1, &o->setting_capacity,
                       sizeof *o->settings)
         < 0)
         return -1;
     o->settings[o->setting_count++] = (char *)(uintptr_t)value;
     return 0;
+}
+
+/* What of it the oracle has no say in is wrong usage; the rest is asked when there is one. */
+static int read_setting(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    const char *equals = strchr(value, '=');
+    return equals && equals != value ? keep_setting(o, value) : -1;
+}
+
+int option_range(const char *text, double *low, double *high)
+{
+    char *end, *last;
+    *low = decimal(text, &end);
+    if (end == text || *end != ':')
+        return -1;
+    *high = decimal(end + 1, &last);
+    return last == end + 1 || *last || !(*low > 0) || !(*high >= *low) || !isfinite(*high) ? -1 : 0;
+}
+
+/* NAME or NAME=LOW:HIGH. */
+static int read_fitted(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    const char *equals = strchr(value, '=');
+    double low, high;
+    return *value && (!equals || option_range(equals + 1, &low, &high) == 0)
+               ? keep_setting(o, value)
+               : -1;
 }
 
 static int read_replacement(struct options *o, const struct option_row *row, const char *value)
@@ -256,7 +285,7 @@ static const char *read_axis(struct options *o, const char *value, struct copy_s
         return NULL;
     *step = &o->copies.steps[o->copies.count++];
     (*step)->axis = *value - 'x';
-    (*step)->at = strtod(value + 2, &end);
+    (*step)->at = decimal(value + 2, &end);
     return end == value + 2 || !(fabs((*step)->at) <= 1e30) ? NULL : end;
 }
 
@@ -317,7 +346,7 @@ static int rising_list(const char *text, double low, double high, double list[ST
 {
     for (int n = 0; n < STUDY_LIST; text++) {
         char *end;
-        double x = strtod(text, &end);
+        double x = decimal(text, &end);
         if (end == text || !(x >= low && x <= high) || (n && x <= list[n - 1]))
             return -1;
         list[n++] = x;
@@ -572,8 +601,8 @@ const struct option_row option_rows[] = {
      "a parameter of the oracle; may be repeated", NULL, .read = read_setting},
     {"params", "FILE", SOLVE | EXPLAIN, NULL,
      "a file of them, as a panel gives it; --set goes before", TEXT(params), .rare = 1},
-    {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
-     .read = read_setting},
+    {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold",
+     "NAME, or NAME=LOW:HIGH with numbers 0 < LOW <= HIGH", .read = read_fitted},
     {"error", "E%", TUNE, "1%", "the error worked for, of the reflected light",
      "a share such as 2% or 0.02, above 0 and below 1", .read = read_share, IN(noise), .low = 1},
     {"power", "P", TUNE, "6", "how steeply errors above E count, see above",

@@ -36,6 +36,9 @@ struct option_row {
 extern const struct option_row option_rows[];
 extern const int option_row_count;
 
+/* "LOW:HIGH", numbers with 0 < LOW <= HIGH. Returns 0, or -1. */
+int option_range(const char *text, double *low, double *high);
+
 /* What values it takes, in words. Good until the next call. */
 const char *option_takes(const struct option_row *row);
 

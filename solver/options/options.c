@@ -302,8 +302,11 @@ static int set_scene(struct options *o, const char *path)
     if (strcmp(c->argument, "ORACLE") == 0)
         return set_oracle_argument(o, path);
     if (!*c->argument)
-        return wrong(c->name, "%s takes no scene, but got %s", c->name,
-                     *path ? path : "an empty name");
+        return wrong(c->name, "%s takes no scene, but got %s%s", c->name,
+                     *path ? path : "an empty name",
+                     o->command == COMMAND_ORACLES
+                         ? "; it tells of all oracles, `radiosity draw NAME` shows one"
+                         : "");
     int tables = o->command == COMMAND_ERROR;
     if (*path && strstr(c->argument, "..."))
         return add_scene(o, path);

@@ -13,6 +13,7 @@
 
 #include "geometry.h"
 #include "output/raster.h"
+#include "util/decimal.h"
 
 enum { COARSE_X = 40, COARSE_Y = 30, DEFAULT_FOV = 70 };
 
@@ -21,7 +22,7 @@ static int number(const char **text, double *value)
     if (isspace((unsigned char)**text))
         return -1;
     char *stop;
-    *value = strtod(*text, &stop);
+    *value = decimal(*text, &stop);
     if (stop == *text || !isfinite(*value))
         return -1;
     *text = stop;

@@ -2,11 +2,14 @@
  * SPDX-License-Identifier: MIT */
 #include "util/open_oracle.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "util/decimal.h"
 #include "util/device.h"
 #include "util/ends_with.h"
 #include "util/report.h"
@@ -64,7 +67,7 @@ static int apply_setting(RadDevice device, RadOracle oracle, const char *setting
     memcpy(name, setting, length);
     name[length] = 0;
     char *end;
-    double value = strtod(equals + 1, &end);
+    double value = decimal(equals + 1, &end);
     if (!equals[1])
         return report_error("--set", 0, "%s has no value; write %s=NUMBER", name, name);
     if (end == equals + 1 || *end || isnan(value))
@@ -105,6 +108,12 @@ RadOracle open_oracle_replaced(RadDevice device, const char *oracle, enum RadRel
         if (!radHasOracle(device, oracle, release))
             return refuse_oracle(device, oracle, release);
         opened = radNewOracle(device, oracle, release);
+    } else if (strcmp(oracle, "-") != 0 && access(oracle, R_OK) != 0) {
+        report_error(oracle, 0,
+                     "cannot read the oracle: %s; check the name, `radiosity oracles` lists "
+                     "those that need no file",
+                     strerror(errno));
+        return NULL;
     } else {
         opened = radLoadOracle(device, oracle, NULL, release);
     }

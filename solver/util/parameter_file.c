@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "util/decimal.h"
 #include "util/device.h"
 #include "util/report.h"
 #include "util/text_file.h"
@@ -82,7 +83,7 @@ static int set(struct parameter_file *f, const char *name, const char *text)
                             name, (unsigned)f->lines[i]);
     f->lines[i] = f->line;
     char *end;
-    double value = strtod(text, &end);
+    double value = decimal(text, &end);
     if (!*text)
         return report_error(f->path, f->line, "%s has no value; write %s = NUMBER", name, name);
     if (end == text || *end || isnan(value))

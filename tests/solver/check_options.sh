@@ -106,7 +106,7 @@ says 2 "the scene's name is empty" study causes "$scene" ""
 says 2 "this is a scene, which would be lost" study causes none.obj "$scene" --json "$scene"
 says 2 "study stability takes no scene, but got x.obj" study stability x.obj
 says 2 "study arvo takes no scene, but got x.obj" study arvo x.obj
-says 2 "oracles takes no scene, but got x.obj" oracles x.obj
+says 2 "oracles takes no scene, but got power; it tells of all oracles, \`radiosity draw NAME\` shows one" oracles power
 says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
 says 2 "a command comes first, not --image" --image x solve "$scene"
@@ -152,8 +152,11 @@ done
 
 # ---- parameters and oracles: exit 1
 says 1 "energy has no value" solve "$scene" --set energy=
-says 1 "'=1' names no parameter" solve "$scene" --set =1
-says 1 "'energy' names no parameter" solve "$scene" --set energy
+says 2 "--set takes PARAM=VALUE, not =1" solve "$scene" --set =1
+says 2 "--set takes PARAM=VALUE, not energy" solve "$scene" --set energy
+says 1 "'0x10' is not a number" solve "$scene" --set energy=0x10
+says 2 "--tolerance takes " solve "$scene" --tolerance 0x1p-9
+says 1 "nosuch.dag: error: cannot read the oracle: No such file or directory; check the name" solve "$scene" --oracle nosuch.dag
 says 1 "'x' is not a number" solve "$scene" --set energy=x
 says 1 "'nan' is not a number" solve "$scene" --set energy=nan
 says 1 "out of range; energy takes 0 to inf" solve "$scene" --set energy=-1
@@ -287,14 +290,11 @@ for format in ply obj gltf glb; do
     "$radiosity" solve "$scenes/cornell.obj" -q -o full.$format --no-correct --no-errors >out 2>err
     [ $? = 1 ] && grep -q "^full.$format: error: cannot write: No space left on device; free" err && [ "$(wc -l <err)" = 1 ] ||
         failed "a full disk, .$format: $(cat err)"
+    rm -f full.$format out err
 done
 count=$((count + 1))
 "$radiosity" solve "$scenes/furnace.obj" -q --json - >/dev/full 2>err
-    rm -f full.$format out err
 [ $? = 1 ] && grep -q "^standard output: error: cannot write: No space left" err && [ "$(wc -l <err)" = 1 ] || failed "--json - to a full device: $(cat err)"
-# A pipe nobody reads must not be waited for.
-count=$((count + 1))
-mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
 says 1 "File name too long; give it a shorter name" solve "$scene" --json "$(printf '%0300d' 0)"
 # A format that is known, and a file that holds nothing of it.
 mkdir "$tmp.damaged"
@@ -303,6 +303,9 @@ head -c 300 /dev/zero >"$tmp.damaged/zero.glb" && says 1 "zero.glb: error: canno
 : >"$tmp.damaged/empty.foo" && says 1 "a format that is not known here" solve "$tmp.damaged/empty.foo"
 printf 'v 0x10 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n' >"$tmp.damaged/hex.obj" && says 1 "hex.obj:1" solve "$tmp.damaged/hex.obj"
 rm -r "$tmp.damaged"
+# A pipe nobody reads must not be waited for.
+count=$((count + 1))
+mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
 [ $? = 1 ] && grep -q none.obj err || failed "a pipe as output"
 
 # ---- examples of help and man page that need no other file run as they stand

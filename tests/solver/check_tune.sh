@@ -53,7 +53,7 @@ says 1 "limit is fixed by its author" fixed.dag "$room" --param limit
 says 1 "say which to fit by --param NAME: min_share" fixed.dag "$room"
 says 1 "limit is named twice" ff "$room" --param limit --param limit=1:2
 for range in 1:0.5 0:1 1 :1 1: 1:2:3 x:y -1:1 nan:1 1:inf ''; do
-    says 1 "write NAME=LOW:HIGH with numbers 0 < LOW <= HIGH" ff "$room" --param limit=$range
+    says 2 "--param takes NAME, or NAME=LOW:HIGH with numbers 0 < LOW <= HIGH, not limit=$range" ff "$room" --param limit=$range
 done
 says 1 "limit: no value between 0.061 and 0.062" ff "$room" --param limit=0.061:0.062
 says 1 "say which to fit by --param NAME: threshold_1" tester "$room"
