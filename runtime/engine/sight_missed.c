@@ -49,17 +49,19 @@ void sight_eyes_add(struct sight_eyes *eyes, const struct element *piece)
  * narrow, wherever it falls, and tells nothing. Chosen. */
 static const double EDGE_ON = 0.01;
 
-/* Does the face throw a shade on any of the points? */
+/* Does the face throw a shade on two of the points? Where it does on one alone, that may be on its
+ * fringe, which tells nothing of how dark it is between them. */
 static int is_seen(const struct sight_eyes *eyes, const struct element *face, double radius)
 {
     const struct sight *sight = eyes->sight;
     struct outline shade;
+    int shaded = 0;
     for (int i = 0; i < eyes->count; i++)
         if (eyes->height[i] > 0
             && fabs(height3(eyes->from[i], face->vertex[0], face->normal)) > EDGE_ON * radius
             && outline_cast(&shade, &sight->raised, eyes->from[i], eyes->height[i],
                             (const double(*)[3])face->vertex, face->vertices)
-            && sight_shade_meets(&shade, &sight->cell))
+            && sight_shade_meets(&shade, &sight->cell) && ++shaded == 2)
             return 1;
     return 0;
 }

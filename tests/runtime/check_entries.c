@@ -332,6 +332,54 @@ START_TEST(test_faint)
 }
 END_TEST
 
+/* A room of so many tiles a side with plates in a row in it, seen past by its walls: shades that
+ * repeat along them. By quadrature that shares nothing with the library (7 points in each of 2,048
+ * triangles, of either face; the two differ by less than 3e-5 of an entry). */
+START_TEST(test_fins)
+{
+    static const struct {
+        int tiles, plates;
+        double thick;
+        int from, onto;
+        double right;
+    } of[3] = {{1, 5, 0.02, 5, 4, 0.084749},
+               {2, 6, 0.001, 16, 13, 0.0164825},
+               {3, 8, 0.001, 21, 32, 0.0061032}};
+    static const double tolerance = 3e-4;
+    enum { MOST = 6 * 9 + 6 * 8 };
+    static double row[MOST];
+    for (int t = 0; t < 3; t++) {
+        const int tiles = of[t].tiles, faces = 6 * tiles * tiles + 6 * of[t].plates;
+        const double along[3][3] = {{of[t].thick, 0, 0}, {0, 0.6, 0}, {0, 0, 0.5}};
+        struct scene made;
+        struct exchange x;
+        const char *cause;
+        made_open(&made);
+        made_material(&made, 0.5, 0);
+        for (int i = 0; i < 6 * tiles * tiles; i++)
+            made_tile(&made, 0, 0, i / (tiles * tiles), i % (tiles * tiles), tiles, 1);
+        for (int i = 0; i < of[t].plates; i++) {
+            const double at[3] = {0.2 + 0.6 * i / of[t].plates, 0.2, 0.2};
+            made_box(&made, 0, at, along, 0);
+        }
+        struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+        exchange_set_tolerance(refiner, tolerance);
+        const struct exchange_options options = {.tolerance = tolerance, .threads = 1};
+        ck_assert_int_eq(exchange_open(&x, &made, refiner, &options, &cause), 0);
+        (void)exchange_row(&x, (uint32_t)of[t].from, row);
+        const double allowed = tolerance * SIGHT_FLOOR_MANY / sqrt(faces),
+                     off = fabs(row[of[t].onto] - of[t].right);
+        printf("past %d fins %.7f, right: %.7f, %.2f of what is allowed, %.2g estimated\n",
+               of[t].plates, row[of[t].onto], of[t].right, off / allowed, x.report.entry_error);
+        ck_assert_double_le(off, allowed);
+        ck_assert_double_le(off, x.report.entry_error + 3e-5 * of[t].right);
+        exchange_close(&x);
+        refiner_close(refiner);
+        made_close(&made);
+    }
+}
+END_TEST
+
 static double chance(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
@@ -434,6 +482,7 @@ int main(void)
     tcase_add_test(tests, test_crossing_faces);
     tcase_add_test(tests, test_many_corners);
     tcase_add_test(tests, test_faint);
+    tcase_add_test(tests, test_fins);
     tcase_add_test(tests, test_random_scenes);
     return suite_failures(suite);
 }
