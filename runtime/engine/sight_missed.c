@@ -25,10 +25,11 @@ static double exchange_in_gap(const struct element *face, const struct element *
     return GAP * piece->area * face->area / (LAMBERT_PI * range[0] * range[0]);
 }
 
-void sight_eyes_open(struct sight_eyes *eyes, const struct sight *sight, double up)
+void sight_eyes_open(struct sight_eyes *eyes, const struct sight *sight, double up, int enough)
 {
     eyes->sight = sight;
     eyes->up = up;
+    eyes->enough = enough;
     eyes->count = 0;
 }
 
@@ -49,8 +50,7 @@ void sight_eyes_add(struct sight_eyes *eyes, const struct element *piece)
  * narrow, wherever it falls, and tells nothing. Chosen. */
 static const double EDGE_ON = 0.01;
 
-/* Does the face throw a shade on two of the points? Where it does on one alone, that may be on its
- * fringe, which tells nothing of how dark it is between them. */
+/* Does the face throw a shade on enough of the points? */
 static int is_seen(const struct sight_eyes *eyes, const struct element *face, double radius)
 {
     const struct sight *sight = eyes->sight;
@@ -61,7 +61,7 @@ static int is_seen(const struct sight_eyes *eyes, const struct element *face, do
             && fabs(height3(eyes->from[i], face->vertex[0], face->normal)) > EDGE_ON * radius
             && outline_cast(&shade, &sight->raised, eyes->from[i], eyes->height[i],
                             (const double(*)[3])face->vertex, face->vertices)
-            && sight_shade_meets(&shade, &sight->cell) && ++shaded == 2)
+            && sight_shade_meets(&shade, &sight->cell) && ++shaded == eyes->enough)
             return 1;
     return 0;
 }

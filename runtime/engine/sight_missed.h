@@ -14,15 +14,18 @@ struct sight_eyes {
     const struct sight *sight;
     double up;
     int count;
+    int enough; /* so many see a shade, that is not missed */
     double from[SIGHT_EYED * FACE_RULE][3], height[SIGHT_EYED * FACE_RULE];
 };
 
-/* up: how far off their piece points look from (m). sight is borrowed. */
-void sight_eyes_open(struct sight_eyes *eyes, const struct sight *sight, double up);
+/* up: how far off their piece points look from (m); enough: so many that see a shade tell it. sight
+ * is borrowed. */
+void sight_eyes_open(struct sight_eyes *eyes, const struct sight *sight, double up, int enough);
 void sight_eyes_add(struct sight_eyes *eyes, const struct element *piece);
 
 /* At most what of the exchange of a piece and the polygon `to`, which the eyes' sight was opened
- * for, passes through those of the faces that throw a shade on none of the points (m2). */
+ * for, passes through those of the faces that throw a shade on fewer than enough of the points
+ * (m2). */
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
                     const uint32_t *faces, int count, struct sight_known *known);
