@@ -597,7 +597,8 @@
  * ramps of .05 to 3 sides, on a triangle and a quad: where that is up to half of what may be wrong,
  * of which half of them are, .03 and .05 % are wrong by more (where the two rules differ by a
  * quarter of it alone, .3 and .1 to .8 %); of quarters, .06 % (.3 to .6); without the points that
- * weigh nothing. But shades that repeat agree by chance. Of as many on a quad, of waves of .5 to 6
+ * weigh nothing, of quads by products of Gauss points, and .125 of it for quarters. But shades that
+ * repeat agree by chance. Of as many on a quad, of waves of .5 to 6
  * a side, half of them along one, the second half of these with a ramp besides, by more than .01 of
  * what may be exchanged, with quarters: .005 and .06 % (with .125 of it: .01 and .12; of products
  * of Gauss points: .19 and .42, with .5 .14 and .22). Among view factors past 2 to 10 fins, 42

@@ -393,7 +393,8 @@ static double missed(const struct looking *l, int at)
     const struct sight_node *node = &l->scratch->nodes[at],
                             *quarters = &l->scratch->nodes[node->quarters];
     /* In small scenes a shade has to be seen twice: once may be on its fringe, which does not tell
-     * how dark it is between points. In others that takes up to a sixth longer for no less error */
+     * how dark it is between points. In others that takes up to a sixth longer for a tenth less
+     * error */
     const int most = l->believes ? SIGHT_MISSED_MANY : SIGHT_MISSED,
               enough = l->limits.many ? 1 : 2;
     struct sight_eyes eyes;
