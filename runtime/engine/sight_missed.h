@@ -14,7 +14,7 @@ struct sight_eyes {
     const struct sight *sight;
     double up;
     int count;
-    int enough; /* so many see a shade, that is not missed */
+    int enough; /* a shade that so many see is not missed */
     double from[SIGHT_EYED * FACE_RULE][3], height[SIGHT_EYED * FACE_RULE];
 };
 
