@@ -45,6 +45,7 @@ what nobody has found light on is dark | runtime/engine/dim_belief.h | s/light >
 planes prove nothing | runtime/engine/lights_reach.c | s/^    return reach;/    return 1;/ | runtime/check_unseen_light
 one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - left)/ | runtime/check_dim_faces
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
+no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)paths_for(d, p, goal);/(void)goal;/ | runtime/check_dim_faces
 paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces
 near as far | runtime/terms/visibility.h | s/dot3(apart, apart) < wide \* wide/dot3(apart, apart) < 0 * wide/ | runtime/check_runtime
 shadow .05 | runtime/kernel/constants.h | s/\(ROW_SHADOW\) *0.5$/\1 0.05/ | runtime/check_transport runtime/check_closure runtime/check_solve

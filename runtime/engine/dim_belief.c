@@ -58,6 +58,12 @@ static double doubted(double variance, double apart, double other, double errors
     return square > errors * errors * (variance + other) ? square - other : variance;
 }
 
+int dim_paths_miss(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    const double n = (double)p->paths, variance = dim_path_variance(d, p) / n;
+    return doubted(variance, p->all / n - p->light, p->variance, DIM_MISSED) > variance;
+}
+
 double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p)
 {
     const double n = (double)p->paths,

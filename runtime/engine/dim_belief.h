@@ -20,6 +20,9 @@ double dim_light_of(const double sum[REPLICATES], double *variance);
 /* The variance of one path, of those that have been traced. */
 double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p);
 
+/* Are paths farther from mending than noise explains? */
+int dim_paths_miss(const struct dim_faces *d, const struct dim_polygon *p);
+
 /* The share of paths in the mean of them and mending, each by the inverse of its variance. */
 double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p);
 

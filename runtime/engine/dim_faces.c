@@ -230,6 +230,25 @@ static void set_windows(const struct dim_faces *d, float *window)
     }
 }
 
+/* Split particles serve all polygons and come from the emitters all the way: often a few paths more
+ * make sure, for far less, what the budget of paths has left. Returns what is left of `rays`, or -1
+ * when out of memory or stopped. */
+static double trace_rest(struct dim_faces *d, double rays)
+{
+    for (double may = DIM_REST * rays; !all_sure(d);) {
+        const double rest = dim_plan_rest(d);
+        const uint64_t before = *d->rays;
+        if (!(rest > 0) || rest > may)
+            break;
+        if (dim_paths_trace(d) < 0)
+            return -1;
+        const double spent = (double)(*d->rays - before);
+        may -= spent;
+        rays -= spent;
+    }
+    return fmax(rays, 0);
+}
+
 /* Paths by so many rays, and where these leave some unsure split particles by what `both` has left;
  * but these are not asked for fewer rays than mending took: they would know less. */
 static int trace_all(struct dim_faces *d, struct solve *s, double paths, double both,
@@ -241,6 +260,9 @@ static int trace_all(struct dim_faces *d, struct solve *s, double paths, double 
     double rays = both - (double)(*d->rays - before);
     if (rays < mending || all_sure(d))
         return 0;
+    rays = trace_rest(d, rays);
+    if (rays < mending || all_sure(d))
+        return rays < 0 ? -1 : 0;
     if (own_quarters_share(s) < 0) /* split particles ask every leaf what they are to carry */
         return -1;
     float *window = malloc(d->tracer->hierarchy->count * sizeof *window);

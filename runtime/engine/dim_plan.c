@@ -96,3 +96,20 @@ void dim_plan(struct dim_faces *d, double rays, double most)
     if (share < 1)
         give(d, 0, share);
 }
+
+double dim_plan_rest(struct dim_faces *d)
+{
+    const double goal = sqrt(fmax(DIM_GOAL * DIM_GOAL - d->shared, 0)) / DIM_MARGIN;
+    double rays = 0;
+    for (uint32_t j = 0; j < d->count; j++) {
+        struct dim_polygon *p = &d->polygon[j];
+        p->wanted = p->paths;
+        if (dim_is_sure(d, p))
+            continue;
+        if (!(goal > 0) || dim_paths_miss(d, p))
+            return INFINITY;
+        p->wanted += (uint64_t)paths_for(d, p, goal);
+        rays += (double)(p->wanted - p->paths) * (double)p->rays / (double)p->paths;
+    }
+    return rays;
+}

@@ -18,4 +18,9 @@
  * share of their light, in steps of a fiftieth. Each has a first look. */
 void dim_plan(struct dim_faces *d, double rays, double most);
 
+/* Set `wanted` of each that is not sure to what makes it so, by a margin. Returns how many rays
+ * that takes; INFINITY where paths are no way to it: they miss something, or all light is known too
+ * little. */
+double dim_plan_rest(struct dim_faces *d);
+
 #endif

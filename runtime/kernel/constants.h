@@ -424,6 +424,12 @@
 /* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
  * leave a dim polygon unsure: chosen, half a second */
 #define DIM_FEW 1.5e6
+/* of that rest. So much at the most goes to paths first, if these are thought to make all sure:
+ * where they do not the noise of split particles is larger by a seventh; chosen */
+#define DIM_REST 0.25
+/* times the standard error. So much less paths aim at then: their variance is known to a tenth, its
+ * root to a twentieth, and this is two of these */
+#define DIM_MARGIN 1.1
 /* of what is left for small polygons, and of the rays of mending. So much at the most is for groups
  * of them, which need not be known one by one; chosen */
 #define DIM_GATHERED 0.25

@@ -478,6 +478,28 @@ START_TEST(test_plan)
 }
 END_TEST
 
+/* What is sure gets nothing more, the others what makes them sure; where paths miss something, or
+ * all light is not known so well, none do. */
+START_TEST(test_plan_rest)
+{
+    enum { COUNT = 3 };
+    struct dim_polygon polygon[COUNT];
+    struct dim_faces d;
+    open_plan(&d, polygon, COUNT);
+    polygon[1].variance = 1e-6;
+    const double rays = dim_plan_rest(&d);
+    ck_assert_uint_eq(polygon[1].wanted, polygon[1].paths);
+    ck_assert_double_eq_tol(planned(&polygon[0]), DIM_GOAL / DIM_MARGIN, 1e-2 * DIM_GOAL);
+    ck_assert_double_eq_tol(rays, 8 * (double)(polygon[0].wanted - polygon[0].paths), 1e-9 * rays);
+    polygon[2].light = 20;
+    polygon[2].variance = 1;
+    ck_assert(isinf(dim_plan_rest(&d)));
+    open_plan(&d, polygon, COUNT);
+    d.shared = DIM_GOAL * DIM_GOAL;
+    ck_assert(isinf(dim_plan_rest(&d)));
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("dim faces");
@@ -491,6 +513,7 @@ int main(void)
     tcase_add_test(tests, test_groups);
     tcase_add_test(tests, test_groups_told);
     tcase_add_test(tests, test_plan);
+    tcase_add_test(tests, test_plan_rest);
     tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
