@@ -173,6 +173,11 @@ light goes through solids | runtime/engine/exchange_sight.c | s/l->joined && bod
 houses are solid | runtime/hierarchy/body_feet.c | s/if (!is_lining(s, mates, b->feet\[i\].solid))/if (b->feet[i].solid != UINT32_MAX)/ | runtime/check_stacked
 tubes are solid | runtime/hierarchy/body_feet.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
 points on the larger face | runtime/engine/exchange_sight.c | s/from_r = apart ?/from_r = 0 * apart ?/ | runtime/check_slots
+points inside a quad are no rule | runtime/engine/face_rule.h | s/0.21801733953755267/0.218/ | runtime/check_face_rule
+parts with few pieces | runtime/engine/sight_limits.c | s/own.pieces = .*/own.pieces = 8;/ | runtime/check_entries
+lines of one half alone | runtime/engine/sight_outlines.c | s/^ *add_seen(c, list, n, list + n, &below)/if (!halved) &/ | runtime/check_outlines
+quads bent by more than rays tell | runtime/hierarchy/scene.c | s/SCENE_FLAT_FOR_RAYS \* extent/1e9 * extent/ | runtime/check_reference
+guesses of the slowest sweeps alone | runtime/kernel/constants.h | s/EXTRAPOLATION_SLOW 0.8/EXTRAPOLATION_SLOW 0.97/ | runtime/check_solvers
 pieces cut in the middle | runtime/engine/exchange_sight.c | s/OFF_MIDDLE = 0.125/OFF_MIDDLE = 0/ | runtime/check_sheets
 near faces are not asked | runtime/engine/exchange_sight.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets
 crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from > 2)/else if (to - from > 99)/ | runtime/check_stacked
