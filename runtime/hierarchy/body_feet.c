@@ -2,10 +2,11 @@
  *
  * A body stands on a face whose front looks into it where one of its sides, or a lid, lies on that.
  * There the face is covered. Where the side is a face of its own, light from the covered part ends
- * at it, and so does light that would come there through the body; behind a lid is nothing. Faces
- * that go on into the body, or along others of its sides, and nowhere out of it line a hollow one,
- * which stands on nothing there. Invariant: once summed up, feet are in the order of what they
- * stand on, then of bodies. [derived here]
+ * at it, and so does light that would come there through the body; behind a lid is nothing, but for
+ * that of an open one, as a pipe from floor to ceiling. Faces that go on into the body, or along
+ * others of its sides, and nowhere out of it line a hollow one, which stands on nothing there.
+ * Invariant: once summed up, feet are in the order of what they stand on, then of bodies.
+ * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -188,12 +189,26 @@ static int is_lining(const struct shell *s, const struct mates *mates, uint32_t 
     return bends;
 }
 
+/* Is it open where it stands: a pipe from floor to ceiling, a box without two of its sides in a
+ * corner, or anything of faces that have another side? Then light gets to what is behind its lids.
+ */
+static int is_open(const struct shell *s)
+{
+    const struct hierarchy *h = s->h;
+    for (int k = 0; k < s->faces; k++)
+        for (uint32_t p = h->range[s->face[k]].from; p < h->range[s->face[k]].to; p++)
+            if (face_other_side(h->faces, h->face_count, h->order[p]) != UINT32_MAX)
+                return 1;
+    return s->lids > 1;
+}
+
 int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *mates, uint32_t body)
 {
     const size_t before = b->feet_count;
     double cover[2] = {0, 0};
     int status = 0;
-    for (int i = 0; i < s->lids && status == 0; i++) {
+    const int open = is_open(s);
+    for (int i = 0; i < s->lids && !open && status == 0; i++) {
         const struct covering by = {b, body, NO_FACE};
         status = add_cover(s->h, 0, 0, &s->lid[i], cover, &by);
     }

@@ -99,6 +99,38 @@ START_TEST(test_post)
 }
 END_TEST
 
+/* Is anything looked at again? */
+static int is_again(void *again, const struct RadProgress *progress)
+{
+    *(int *)again |= strcmp(progress->phase, "again") == 0;
+    return 0;
+}
+
+/* A post without ends from floor to ceiling: what it stands on sees the other end through it, which
+ * is what rows have more than what is not covered of them, and no reason to doubt their entries. */
+START_TEST(test_pipe)
+{
+    static const double low[3] = {0.2, 0.2, 0}, high[3] = {0.6, 0.6, 1};
+    const double sum = 1 - 0.16 * (1 - closed_parallel(0.4, 0.4, 1));
+    const struct RadExchangeOptions how = {.tolerance = 1e-3};
+    double f[16];
+    int again = 0;
+    clear();
+    room(1, 1, 1);
+    box(low, high, 0, 3);
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 1});
+    radSetDeviceProgressFunction(device, is_again, &again);
+    RadScene s = scene_on(device);
+    RadExchange exchange = radNewExchange(s, NULL, &how);
+    ck_assert_ptr_nonnull(exchange);
+    ck_assert_double_eq_tol(radGetExchangeRow(exchange, 0, f), sum, 1e-3);
+    ck_assert_int_eq(again, 0);
+    radReleaseExchange(exchange);
+    radReleaseScene(s);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* An inner room whose walls lie in an outer box's planes, all of them or four or two. */
 START_TEST(test_house)
 {
@@ -160,6 +192,7 @@ int main(void)
     tcase_add_loop_test(t, test_boxes, 0, sizeof stack / sizeof *stack);
     tcase_add_loop_test(t, test_shelf, 0, sizeof post / sizeof *post);
     tcase_add_test(t, test_post);
+    tcase_add_test(t, test_pipe);
     tcase_add_loop_test(t, test_house, 0, under_sanitizers() ? 1 : 3);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
