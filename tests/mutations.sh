@@ -177,7 +177,6 @@ points inside a quad are no rule | runtime/engine/face_rule.h | s/0.218017339537
 parts with few pieces | runtime/engine/sight_limits.c | s/own.pieces = .*/own.pieces = 8;/ | runtime/check_entries
 lines of one half alone | runtime/engine/sight_outlines.c | s/^ *add_seen(c, list, n, list + n, &below)/if (!halved) &/ | runtime/check_outlines
 quads bent by more than rays tell | runtime/hierarchy/scene.c | s/SCENE_FLAT_FOR_RAYS \* extent/1e9 * extent/ | runtime/check_reference
-guesses of the slowest sweeps alone | runtime/kernel/constants.h | s/EXTRAPOLATION_SLOW 0.8/EXTRAPOLATION_SLOW 0.97/ | runtime/check_solvers
 pipes cover what they stand on | runtime/hierarchy/body_feet.c | s/return s->lids > 1;/return 0;/ | runtime/check_stacked
 pieces cut in the middle | runtime/engine/exchange_sight.c | s/OFF_MIDDLE = 0.125/OFF_MIDDLE = 0/ | runtime/check_sheets
 near faces are not asked | runtime/engine/exchange_sight.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets

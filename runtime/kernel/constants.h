@@ -278,10 +278,9 @@
  * its last links) */
 #define SOLVE_TOLERANCE_MOST 1e-3
 /* extrapolation.h: ratios of changes above which sweeps are slow; how far two may be apart, as a
- * share of what they lack of 1; sweeps in a row. Chosen: below .8 a digit takes ten sweeps, of
- * which a guess waits for five. Measured against .97: a sphere of .97 with ports 332 -> 48 sweeps,
- * a room of .98 171 -> 104, cornell, room and furnace_4 as many */
-#define EXTRAPOLATION_SLOW 0.8
+ * share of what they lack of 1; sweeps in a row. Chosen: below .97 a digit takes 76 sweeps at the
+ * most */
+#define EXTRAPOLATION_SLOW 0.97
 #define EXTRAPOLATION_NEAR 0.3
 #define EXTRAPOLATION_STEADY 4
 /* sweeps. A bound that has not fallen for so long is as low as rounding lets it be; chosen: without

@@ -14,7 +14,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "util/decimal.h"
 
 struct text_lines {
     char *next, *end;       /* where the next line starts, where the text ends: at a 0 */
@@ -106,7 +105,7 @@ static inline char *rest_of_line(const struct text_lines *t)
 static inline int word_number(const struct text_lines *t, double *value)
 {
     char *stop;
-    *value = decimal(t->word, &stop);
+    *value = strtod(t->word, &stop);
     return stop == t->word_end;
 }
 

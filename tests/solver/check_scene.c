@@ -273,7 +273,8 @@ START_TEST(test_polygons)
         double area;
     } cases[] = {
         {"v 0 0 0\nv 1 0 0\nv 1 1 0.001\nv 0 1 0\nf 1 2 3 4\n", 2, 1},  /* not flat */
-        {"v 0 0 0\nv 1 0 0\nv 1 1 0.0001\nv 0 1 0\nf 1 2 3 4\n", 1, 1}, /* flat enough */
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0.0001\nv 0 1 0\nf 1 2 3 4\n", 2, 1}, /* not so for rays */
+        {"v 0 0 0\nv 1 0 0\nv 1 1 1e-6\nv 0 1 0\nf 1 2 3 4\n", 1, 1}, /* flat enough */
         {"v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n", 2,
          1}, /* an arrow head, notch at (.5, .5) */
         {"v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n", 4, 3}, /* an L */

@@ -43,7 +43,7 @@ says 2 "this is the scene, which would be lost" ff "$room" --json "$room"
 
 # ---- oracles, parameters, scenes
 says 1 "no such oracle" nix "$room"
-says 1 "cannot read none.dag" none.dag "$room"
+says 1 "none.dag: error: cannot read the oracle" none.dag "$room"
 says 1 "none.obj: error" ff none.obj
 says 1 "ff has no parameter nix; it has limit, min_area, min_share, rays" ff "$room" --param nix
 says 1 "rays is a whole number" ff "$room" --param rays
