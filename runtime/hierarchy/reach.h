@@ -25,4 +25,16 @@ static inline void element_reach(const struct element *plane, const struct eleme
                   low);
 }
 
+/* How far a box, from its low corner to its high one, reaches in front of a plane, and behind. */
+static inline void box_reach(const double (*box)[3], const double on[3], const double normal[3],
+                             double *high, double *low)
+{
+    *high = *low = 0;
+    for (int k = 0; k < 3; k++) {
+        const double from = normal[k] * (box[0][k] - on[k]), to = normal[k] * (box[1][k] - on[k]);
+        *high += from > to ? from : to;
+        *low += from < to ? from : to;
+    }
+}
+
 #endif

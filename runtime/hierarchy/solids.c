@@ -75,19 +75,18 @@ static int bends_out(const struct shells_walk *w)
 static int has_in_front(const struct shells_walk *w, const struct element *plane, uint32_t index)
 {
     const struct element *e = &w->h->elements[index];
-    double high = 0, low = 0, most = 0;
+    double high = 0, low = 0;
     if (!e->children) {
         if (w->met[index] == AT_HAND)
             element_reach(plane, e, &high, &low);
         return high > w->rounds;
     }
-    for (int k = 0; k < 3 && !e->vertices; k++) {
+    for (int k = 0; k < 3 && !e->vertices; k++)
         if (e->vertex[0][k] > w->high[k] || e->vertex[1][k] < w->low[k])
             return 0;
-        most += fmax(plane->normal[k] * (e->vertex[0][k] - plane->vertex[0][k]),
-                     plane->normal[k] * (e->vertex[1][k] - plane->vertex[0][k]));
-    }
-    if (!e->vertices && most <= w->rounds / 2) /* rounding of the sum is far less */
+    if (!e->vertices)
+        box_reach((const double(*)[3])e->vertex, plane->vertex[0], plane->normal, &high, &low);
+    if (!e->vertices && high <= w->rounds / 2) /* rounding of the sum is far less */
         return 0;
     for (uint32_t c = 0; c < e->children; c++)
         if (has_in_front(w, plane, e->child + c))

@@ -13,33 +13,12 @@
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include "hierarchy/reach.h"
 #include "kernel/constants.h"
 #include "kernel/surface.h"
 #include "visibility/free_space.h"
 
 enum { WALLS = 16 };
-
-/* The height of the lowest corner of a box over a plane through `at`. */
-static double lowest_of_box(const double low[3], const double high[3], const double at[3],
-                            const double normal[3])
-{
-    double sum = 0;
-    for (int k = 0; k < 3; k++)
-        sum += fmin(normal[k] * (low[k] - at[k]), normal[k] * (high[k] - at[k]));
-    return sum;
-}
-
-static double lowest_of_corners(const double (*vertex)[3], int vertices, const double at[3],
-                                const double normal[3])
-{
-    double lowest = INFINITY;
-    for (int i = 0; i < vertices; i++) {
-        double off[3];
-        sub3(off, vertex[i], at);
-        lowest = fmin(lowest, dot3(off, normal));
-    }
-    return lowest;
-}
 
 /* The plane of a face, from one of its sides, and how many steps all walks together have left. */
 struct walk {
@@ -55,15 +34,21 @@ static int reaches_behind(struct walk *w, uint32_t i)
 {
     const struct hierarchy *h = w->h;
     const struct element *e = &h->elements[i];
+    const double(*v)[3] = (const double(*)[3])e->vertex;
     int face = e->vertices && h->face_element[e->face] == i;
+    double high = 0, low = 0;
     if (w->steps == 0)
         return 1;
     w->steps--;
-    if (face)
-        return lowest_of_corners((const double(*)[3])e->vertex, e->vertices, w->at, w->normal)
-               < -w->flat;
-    if (!e->vertices && lowest_of_box(e->vertex[0], e->vertex[1], w->at, w->normal) >= -w->flat)
-        return 0;
+    if (face) {
+        polygon_reach(v, e->vertices, w->at, w->normal, &high, &low);
+        return low < -w->flat;
+    }
+    if (!e->vertices) {
+        box_reach(v, w->at, w->normal, &high, &low);
+        if (low >= -w->flat)
+            return 0;
+    }
     for (uint32_t c = 0; c < e->children; c++)
         if (reaches_behind(w, e->child + c))
             return 1;
@@ -78,10 +63,9 @@ struct walls {
 
 static int lies_in(const struct element *e, const struct element *wall, double flat)
 {
-    for (int i = 0; i < e->vertices; i++)
-        if (fabs(height3(e->vertex[i], wall->vertex[0], wall->normal)) > flat)
-            return 0;
-    return 1;
+    double high = 0, low = 0;
+    element_reach(wall, e, &high, &low);
+    return high <= flat && low >= -flat;
 }
 
 /* Is all of the scene on one side of the face? */

@@ -12,6 +12,7 @@
  * Invariant: `outer` depends on the faces and the tree alone. [derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
+#include "hierarchy/reach.h"
 #include "kernel/constants.h"
 #include "visibility/outer_walls.h"
 
@@ -32,9 +33,8 @@ struct walk {
 static int is_against(const struct walk *w, const struct element *e)
 {
     const double *n = w->wall->normal;
-    double low = INFINITY, across[3];
-    for (int i = 0; i < e->vertices; i++)
-        low = fmin(low, height3(e->vertex[i], w->wall->vertex[0], n));
+    double high = -INFINITY, low = INFINITY, across[3];
+    element_reach(w->wall, e, &high, &low);
     if (low < w->behind)
         return 1;
     cross3(across, n, e->normal);
@@ -54,10 +54,8 @@ static int any_against(struct walk *w, uint32_t index)
         return against;
     }
     if (!e->vertices) {
-        const double *n = w->wall->normal, *at = w->wall->vertex[0];
-        double low = 0;
-        for (int k = 0; k < 3; k++)
-            low += fmin(n[k] * (e->vertex[0][k] - at[k]), n[k] * (e->vertex[1][k] - at[k]));
+        double high, low;
+        box_reach((const double(*)[3])e->vertex, w->wall->vertex[0], w->wall->normal, &high, &low);
         if (low > w->near)
             return 0;
     }
@@ -70,11 +68,11 @@ static int any_against(struct walk *w, uint32_t index)
 /* Is what stands in shafts as this one face flat, and all faces before it? */
 static int is_outer(struct walk *w, uint32_t index)
 {
-    const struct element *e = w->wall = &w->h->elements[index];
-    for (int i = 0; i < e->vertices; i++)
-        if (fabs(height3(e->vertex[i], e->vertex[0], e->normal)) > -w->behind)
-            return 0;
-    return !is_against(w, &w->h->elements[w->witness]) && !any_against(w, 0);
+    double high = 0, low = 0;
+    w->wall = &w->h->elements[index];
+    element_reach(w->wall, w->wall, &high, &low);
+    return high <= -w->behind && low >= w->behind && !is_against(w, &w->h->elements[w->witness])
+           && !any_against(w, 0);
 }
 
 /* Returns whether all that an element holds is. */
