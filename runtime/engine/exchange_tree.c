@@ -102,23 +102,6 @@ static double near_share(const struct face *faces, uint32_t count)
     return near * near < all ? near / sqrt(all) : 1;
 }
 
-/* Parts of a polygon stand one behind the other, the sides of each beside it. */
-static struct exchange_whole *wholes_of(const struct hierarchy *h)
-{
-    struct exchange_whole *wholes = malloc(h->face_count * sizeof *wholes);
-    for (uint32_t from = 0, past; from < h->face_count && wholes; from = past) {
-        struct exchange_whole side[2] = {{0, 0}, {0, 0}};
-        for (past = from; past < h->face_count && h->faces[past].input == h->faces[from].input;
-             past++) {
-            side[h->faces[past].back != 0].area += h->elements[h->face_element[past]].area;
-            side[h->faces[past].back != 0].parts++;
-        }
-        for (uint32_t i = from; i < past; i++)
-            wholes[i] = side[h->faces[i].back != 0];
-    }
-    return wholes;
-}
-
 int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count,
                        int threads, const char **cause)
 {
@@ -140,7 +123,7 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
         || hierarchy_build_groups(&t->h, &t->plain, share * rays_host(t->rays)->flat) < 0
         || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0
         || solids_open(&t->solids, &t->h, &t->mates) < 0
-        || misfit_find(&t->h, &t->bodies, &misfit) < 0 || !(t->wholes = wholes_of(&t->h)))
+        || misfit_find(&t->h, &t->bodies, &misfit) < 0)
         goto fail;
     t->host = *rays_host(t->rays);
     t->host.ray_offset *= share;
@@ -172,7 +155,6 @@ void exchange_tree_close(struct exchange_tree *t)
     mates_close(&t->mates);
     bodies_close(&t->bodies);
     solids_close(&t->solids);
-    free(t->wholes);
     hierarchy_free(&t->h);
     hierarchy_free(&t->plain);
     memset(t, 0, sizeof *t);

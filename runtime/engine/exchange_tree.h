@@ -9,12 +9,6 @@
 #include "hierarchy/solids.h"
 #include "visibility/rays.h"
 
-/* The polygon that a face is part of: how many parts it has on that side, and their area (m2). */
-struct exchange_whole {
-    double area;
-    uint32_t parts;
-};
-
 struct exchange_tree {
     /* first, so that a host is its tree: rays, and what stands in a shaft, by groups */
     struct host host;
@@ -23,7 +17,6 @@ struct exchange_tree {
     struct mates mates; /* of what stands in shafts */
     struct bodies bodies;
     struct solids solids;
-    struct exchange_whole *wholes; /* [h.face_count] */
     /* not built where nothing is in the way: who asks what they meet builds them before */
     struct rays *rays;
     struct hierarchy plain; /* what they are built of; empty when they are */
