@@ -180,9 +180,6 @@ void dag_run_passes(struct dag *dag, const struct input *catalog, const struct i
 
 /* ---- passes, in their order */
 
-/* Can it begin C names? */
-int dag_is_prefix(const char *text);
-
 enum content { CONTENT_CATALOG, CONTENT_ORACLES };
 void dag_parse(struct dag *dag, int source, enum content content); /* and what it imports */
 void dag_resolve_catalog(struct dag *dag); /* what was declared since the last time */
@@ -215,6 +212,7 @@ struct emit_options {
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */
+int dag_is_prefix(const char *text);                 /* can it begin the C names of --standalone? */
 void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
                          const char *header_name, const struct emit_options *options);
 void dag_emit_dot(struct dag *dag, struct text *out);

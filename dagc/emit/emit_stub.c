@@ -150,18 +150,25 @@ static void print_term(const struct dag *dag, struct text *out, const struct ter
     dag_print(out, ";\n    }\n    return d->terms.%s;\n}\n\n#endif\n", term->name);
 }
 
+/* The file of a wave form of a tool or term, up to the arguments that all have. */
+static void print_wave_head(struct text *out, const char *kind, const char *wave,
+                            const char *header, const char *function, const char *name)
+{
+    dag_print(out,
+              "/* %s - the same as %s of many pairs at once: block[at[k]], k below count. */\n",
+              wave, header);
+    print_frame(out, kind, name);
+    dag_print(out,
+              "#include <stdint.h>\n#include \"%s\"\n\nstatic inline void %s%s(struct "
+              "discussion *block, const uint16_t *at, int count",
+              header, function, name);
+}
+
 /* By the tool itself, pair by pair: what --release=wave calls until somebody writes a faster one.
  */
 static void print_tool_wave(const struct dag *dag, struct text *out, const struct tool *tool)
 {
-    dag_print(out,
-              "/* %s - the same as %s of many pairs at once: block[at[k]], k below count. */\n",
-              tool->wave, tool->header);
-    print_frame(out, "TOOL_WAVE", tool->name);
-    dag_print(out,
-              "#include <stdint.h>\n#include \"%s\"\n\nstatic inline void wave_%s(struct "
-              "discussion *block, const uint16_t *at, int count",
-              tool->header, tool->name);
+    print_wave_head(out, "TOOL_WAVE", tool->wave, tool->header, "wave_", tool->name);
     for (int i = 0; i < tool->parameters.count; i++) {
         const struct parameter *p = &dag->parameters[tool->parameters.first + i];
         dag_print(out, ", const %s *%s",
@@ -179,14 +186,7 @@ static void print_tool_wave(const struct dag *dag, struct text *out, const struc
 static void print_term_wave(struct text *out, const struct term *term)
 {
     const int levels = term->levels.count > 0;
-    dag_print(out,
-              "/* %s - the same as %s of many pairs at once: block[at[k]], k below count. */\n",
-              term->wave, term->header);
-    print_frame(out, "TERM_WAVE", term->name);
-    dag_print(out,
-              "#include <stdint.h>\n#include \"%s\"\n\nstatic inline void wave_term_%s(struct "
-              "discussion *block, const uint16_t *at, int count",
-              term->header, term->name);
+    print_wave_head(out, "TERM_WAVE", term->wave, term->header, "wave_term_", term->name);
     if (levels)
         dag_print(out, ", enum %s_level level", term->name);
     dag_print(
