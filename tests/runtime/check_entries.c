@@ -17,25 +17,32 @@
 
 enum { QUADS = 3, SCENES = 45 };
 
-/* f[count * count] by the library. Returns the error it estimates. */
+/* All rows of a scene, f[count * count], by the library. Returns the error it estimates. */
+static double rows_of(const struct scene *made, double tolerance, double *f)
+{
+    struct exchange x;
+    const char *cause;
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    exchange_set_tolerance(refiner, tolerance);
+    const struct exchange_options options = {.tolerance = tolerance, .threads = 1};
+    ck_assert_int_eq(exchange_open(&x, made, refiner, &options, &cause), 0);
+    for (uint32_t i = 0; i < made->input_count; i++)
+        (void)exchange_row(&x, i, f + made->input_count * i);
+    double error = x.report.entry_error;
+    exchange_close(&x);
+    refiner_close(refiner);
+    return error;
+}
+
+/* The same of so many quads. */
 static double factors_of(int count, const double (*quad)[4][3], double tolerance, double *f)
 {
     struct scene made;
-    struct exchange x;
-    const char *cause;
     made_open(&made);
     made_material(&made, 0.5, 0);
     for (int i = 0; i < count; i++)
         made_face(&made, 0, 4, quad[i]);
-    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    exchange_set_tolerance(refiner, tolerance);
-    const struct exchange_options options = {.tolerance = tolerance, .threads = 1};
-    ck_assert_int_eq(exchange_open(&x, &made, refiner, &options, &cause), 0);
-    for (int i = 0; i < count; i++)
-        (void)exchange_row(&x, (uint32_t)i, f + count * i);
-    double error = x.report.entry_error;
-    exchange_close(&x);
-    refiner_close(refiner);
+    const double error = rows_of(&made, tolerance, f);
     made_close(&made);
     return error;
 }
@@ -223,11 +230,8 @@ START_TEST(test_crossing_faces)
         {0.23936944299295215, 0.87648423081070381, 0.058568034805194347}};
     double row[5], areas[5];
     clear();
-    for (int i = 0; i < 15; i++) {
-        corner(v[i][0], v[i][1], v[i][2]);
-        if (i % 3 == 2)
-            end_face(3);
-    }
+    for (int i = 0; i < 15; i += 3)
+        polygon(&v[i], 3);
     factors(1, 1e-4, row, areas);
     ck_assert_double_eq_tol(row[1] / 0.03469358, 1, 1e-4);
 }
@@ -256,15 +260,9 @@ START_TEST(test_many_corners)
     }
     for (int i = 0; i < 2; i++) {
         clear();
-        for (int k = 0; k < 4; k++)
-            corner(floor[k][0], floor[k][1], floor[k][2]);
-        end_face(4);
-        for (int k = 0; k < CORNERS; k++)
-            corner(v[k][0], v[k][1], v[k][2]);
-        end_face(CORNERS);
-        for (int k = 0; k < 4; k++)
-            corner(plate[k][0], plate[k][1], plate[k][2]);
-        end_face(4);
+        polygon((const double(*)[3])floor, 4);
+        polygon((const double(*)[3])v, CORNERS);
+        polygon((const double(*)[3])plate, 4);
         factors(1, tolerance[i], row, areas);
         printf("a lamp of %d corners %.8f, right: %.8f\n", CORNERS, row[1], right);
         ck_assert_double_eq_tol(row[1], right, tolerance[i] * right);
@@ -339,10 +337,8 @@ static int fins_of(int tiles, int plates, double thick, double tolerance, double
                    double *estimate)
 {
     const double along[3][3] = {{thick, 0, 0}, {0, 0.6, 0}, {0, 0, 0.5}};
-    const int of_room = 6 * tiles * tiles, faces = of_room + 6 * plates;
+    const int of_room = 6 * tiles * tiles;
     struct scene made;
-    struct exchange x;
-    const char *cause;
     made_open(&made);
     made_material(&made, 0.5, 0);
     for (int i = 0; i < of_room; i++)
@@ -351,15 +347,8 @@ static int fins_of(int tiles, int plates, double thick, double tolerance, double
         const double at[3] = {0.2 + 0.6 * i / plates, 0.2, 0.2};
         made_box(&made, 0, at, along, 0);
     }
-    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    exchange_set_tolerance(refiner, tolerance);
-    const struct exchange_options options = {.tolerance = tolerance, .threads = 1};
-    ck_assert_int_eq(exchange_open(&x, &made, refiner, &options, &cause), 0);
-    for (int i = 0; i < faces; i++)
-        (void)exchange_row(&x, (uint32_t)i, f + faces * i);
-    *estimate = x.report.entry_error;
-    exchange_close(&x);
-    refiner_close(refiner);
+    *estimate = rows_of(&made, tolerance, f);
+    const int faces = (int)made.input_count;
     made_close(&made);
     return faces;
 }

@@ -36,6 +36,13 @@ static inline void end_face(uint32_t corners)
     scene.sizes[scene.faces++] = corners;
 }
 
+static inline void polygon(const double (*v)[3], uint32_t corners)
+{
+    for (uint32_t i = 0; i < corners; i++)
+        corner(v[i][0], v[i][1], v[i][2]);
+    end_face(corners);
+}
+
 /* From a corner along two edges; the front is to their vector product. */
 static inline void rectangle(const double at[3], const double u[3], const double v[3])
 {
