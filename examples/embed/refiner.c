@@ -603,13 +603,13 @@
  * of which half of them are, .03 and .05 % are wrong by more (where the two rules differ by a
  * quarter of it alone, .3 and .1 to .8 %); of quarters, .06 % (.3 to .6); without the points that
  * weigh nothing, of quads by products of Gauss points, and .125 of it for quarters. But shades that
- * repeat agree by chance. Of as many on a quad, of waves of .5 to 6
- * a side, half of them along one, the second half of these with a ramp besides, by more than .01 of
- * what may be exchanged, with quarters: .005 and .06 % (with .125 of it: .01 and .12; of products
- * of Gauss points: .19 and .42, with .5 .14 and .22). Among view factors past 2 to 10 fins, 42
- * scenes, 218 were off by more than the tolerance, by up to 6.5 of it, by products and .125; with
- * .5 of it 4, by 1.1, for a fifth more time; by points turned and .25 of it 2, by 1.4; by .3 none,
- * in less time than before, and off by a fifth as much in the mean */
+ * repeat agree by chance. Of as many on a quad, of waves of .5 to 6 a side, half of them along one,
+ * the second half of these with a ramp besides, .005 and .06 % are wrong by more than .01 of what
+ * may be exchanged, with quarters (with .125 of it: .01 and .12; of products of Gauss points: .19
+ * and .42, with .5 .14 and .22). Among view factors past 2 to 10 fins, 42 scenes, 218 entries were
+ * off by more than the tolerance, by up to 6.5 of it, by products and .125; with .5 of it 4, by
+ * 1.1, for a fifth more time; by points turned and .25 of it 2, by 1.4; by .3 none, in less time
+ * than before, and off by a fifth as much in the mean */
 #define REFINER_SIGHT_REST 0.5
 #define REFINER_SIGHT_REST_QUARTERS 0.3
 /* of what a part exchanges with nothing between, in scenes of many polygons: its error, before it
