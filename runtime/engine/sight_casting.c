@@ -123,21 +123,24 @@ static const double GROWS = 1e-10, AWAY = 1e-2;
  * in one place are told apart. Chosen. */
 static const double SURE = 0.1;
 
-/* A point so near to a face's plane, of that size, may be on either side of it. */
-static const double NEARLY = 1e-9;
+/* A point nearer to a face's plane than this, of how far off their faces points are, may be on
+ * either side of it. One on a face that lies in that plane, as of a floor that solids stand on, is
+ * farther: it is off by all of it, less by misfits, SIGHT_MISFITS of which it is at the least. */
+static const double NEARLY = 0.5;
 
 /* Sides of the polygon shorter than this, of its size, have no direction to rely on: nothing is
  * beside them. Where its corner is cut off they are as short as rounding. */
 static const double SHORT = 1e-6;
 
 void sight_casting_open(struct casting *c, const struct sight_bodies *b,
-                        const struct outline_cell *cell, const double from[3])
+                        const struct outline_cell *cell, const double from[3], double up)
 {
     const double z = from[2];
     double far = 0;
     for (int k = 0; k < 3; k++)
         c->from[k] = from[k];
     c->sides = cell->n;
+    c->near = NEARLY * up;
     c->most = z * (1 - OUTLINE_BELOW_EYE);
     c->own = 0;
     for (int i = 0; i < cell->n; i++)
@@ -160,8 +163,7 @@ void sight_casting_open(struct casting *c, const struct sight_bodies *b,
         c->side[i][0] = c->side[i][1] = c->side[i][2] = c->side[i][3] = 0;
     c->per = 1 / c->own;
     c->away = sqrt(far);
-    c->size = c->own + AWAY * c->away;
-    c->grow = GROWS * c->size;
+    c->grow = GROWS * (c->own + AWAY * c->away);
     LANES_RUN(lanes_width(), casting_8, casting_4, casting_body, (c, b));
     c->count = c->first[0] = 0;
 }
@@ -285,7 +287,7 @@ enum rest sight_casting_add(struct casting *c, const struct sight_bodies *b,
     if (out) /* all of it is beside a side, or above */
         return REST_NONE;
     for (int i = body->plane; i < body[1].plane; i++) {
-        if (fabs(c->height[i]) < NEARLY * c->size)
+        if (fabs(c->height[i]) < c->near)
             return REST_UNTOLD;
         front |= c->height[i] > 0;
     }

@@ -23,8 +23,9 @@ struct body_shadow {
 /* A point's shadows that have an edge through the polygon. */
 struct casting {
     double from[3], most;             /* the point; how high what casts shadows may be */
+    double near;                      /* to a plane: the point may be on either side */
     double own, per, away;            /* how large the polygon is, 1 / own; how far */
-    double size, grow;                /* what is small against: AWAY; GROWS of it */
+    double grow;                      /* how much more than the one before each shadow does */
     int sides;                        /* of the polygon */
     double corner[2][POLYGON_MAX];    /* its */
     double side[POLYGON_MAX][4];      /* planes from the point through its sides */
@@ -43,9 +44,10 @@ struct casting {
 /* What of the polygon a body hides. */
 enum rest { REST_UNTOLD, REST_NONE, REST_ALL, REST_SOME };
 
-/* Of a point, whose place in the plane's coordinates is `from`, over the plane. */
+/* Of a point, whose place in the plane's coordinates is `from`, over the plane, and which is `up`
+ * off its own face. */
 void sight_casting_open(struct casting *c, const struct sight_bodies *b,
-                        const struct outline_cell *cell, const double from[3]);
+                        const struct outline_cell *cell, const double from[3], double up);
 
 /* A body's shadow, grown by so much: what of the polygon all edges of its outline leave. It counts
  * when it is some. */

@@ -178,7 +178,7 @@ double sight_rims_past(const struct sight *sight, const double x[3], const doubl
         return 0;
     if (at[2] < LOW * up)
         return -1;
-    sight_casting_open(&rim.cast, bodies, cell, at);
+    sight_casting_open(&rim.cast, bodies, cell, at, up);
     for (int i = 0; i < bodies->count; i++) {
         const enum rest rest =
             sight_casting_add(&rim.cast, bodies, &bodies->body[i], cell, c->grow * (i + 1));

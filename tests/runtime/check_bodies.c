@@ -104,6 +104,36 @@ START_TEST(test_in_rows)
 }
 END_TEST
 
+/* Of boxes that stand on what is looked from, points are in the plane of the lower faces, but for
+ * how far they are off it; some are below a box. */
+START_TEST(test_on_floor)
+{
+    struct scene s;
+    struct exchange_tree t;
+    struct seen seen = {0};
+    double x[81][3];
+    open_squares(&s);
+    for (int i = 0; i < 4; i++) {
+        const double at[3] = {0.15 + 0.5 * (i % 2), 0.2 + 0.5 * (i / 2), 0},
+                     along[3][3] = {{0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.3 + 0.1 * i}};
+        made_box(&s, 0, at, along, 0);
+    }
+    open_tree(&t, &s);
+    for (int i = 0; i < 81; i++) {
+        x[i][0] = 0.04 + 0.12 * (i % 9);
+        x[i][1] = 0.02 + 0.12 * (i / 9);
+        x[i][2] = 0;
+    }
+    look(&t, s.face_count, (const double(*)[3])x, 81, 4, &seen);
+    ck_assert_double_gt(seen.partial, 0.5 * seen.points);
+    ck_assert_double_gt(seen.hidden, 0.1 * seen.points);
+    ck_assert_double_eq(seen.untold, 0);
+    ck_assert_double_lt(seen.most, 1e-9);
+    exchange_tree_close(&t);
+    made_close(&s);
+}
+END_TEST
+
 /* Two boxes whose long edges are in one plane with the points, so that two edges of their shadows
  * run along each other, on one side of both; and a box one of whose edges points at the point. */
 START_TEST(test_in_line)
@@ -253,8 +283,7 @@ START_TEST(test_low)
     struct exchange_tree t;
     struct seen low = {0}, high = {0};
     open_box_between(&s, &t);
-    const double up = t.host.ray_offset,
-                 x[2][3] = {{0.5, 0.5, 1 - 8 * up}, {0.5, 0.5, 1 - 20 * up}};
+    const double up = t.lift, x[2][3] = {{0.5, 0.5, 1 - 8 * up}, {0.5, 0.5, 1 - 20 * up}};
     look(&t, s.face_count, &x[0], 1, 1, &low);
     look(&t, s.face_count, &x[1], 1, 1, &high);
     ck_assert_double_eq(low.untold, 1);
@@ -548,6 +577,7 @@ int main(void)
     suite_add_tcase(suite, tests);
     tcase_add_loop_test(tests, test_chance, 0, 4);
     tcase_add_test(tests, test_in_rows);
+    tcase_add_test(tests, test_on_floor);
     tcase_add_test(tests, test_in_line);
     tcase_add_loop_test(tests, test_lattice, 0, 4);
     tcase_add_test(tests, test_turned);

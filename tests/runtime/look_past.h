@@ -40,14 +40,14 @@ static inline void look_at(const struct exchange_tree *t, const struct polygon *
     const struct element *low = face_of(t, 0), *high = face_of(t, 1);
     uint32_t list[SIGHT_CUT];
     struct sight sight;
-    sight_open(&sight, high, part, t->host.ray_offset);
+    sight_open(&sight, high, part, t->lift);
     for (uint32_t i = 2; i < faces; i++)
         list[i - 2] = t->h.face_element[i];
     ck_assert(sight_bodies_place(&bodies, t, list, (int)faces - 2, &sight.raised));
     ck_assert_int_le(bodies.count, count);
     for (int i = 0; i < points; i++) {
         double whole[2];
-        const double up = t->host.ray_offset,
+        const double up = t->lift,
                      by_rims = sight_rims_past(&sight, x[i], low->normal, up, &bodies, &whole[0]),
                      by_faces = sight_factor(&sight, x[i], low->normal, up, t, list, (int)faces - 2,
                                              &whole[1]);
