@@ -222,6 +222,7 @@ short sides have directions | runtime/engine/sight_casting.c | s/SHORT = 1e-6/SH
 shadows hide no others | runtime/engine/sight_rims.c | s/if ((s == own)/if (1 + (s == own)/ | runtime/check_bodies
 shadows are beside too soon | runtime/engine/sight_rims.c | s/APART = 1e-6/APART = -0.2/ | runtime/check_bodies
 nothing is seen from within | runtime/engine/sight_casting.c | s/body->foot ? REST_UNTOLD : REST_ALL/REST_ALL/ | runtime/check_bodies
+what no point of a group's rule sees | runtime/kernel/constants.h | s/SHADOW_UNSEEN 0.125/SHADOW_UNSEEN 0.0125/ | runtime/check_entries
 points of floors are in the planes of what stands there | runtime/engine/sight_casting.c | s/NEARLY = 0.5/NEARLY = 2/ | runtime/check_bodies
 low points are told | runtime/engine/sight_rims.c | s/LOW = 10/LOW = 0/ | runtime/check_bodies
 open rims are trusted | runtime/engine/sight_rims.c | s/OPEN = 1e-9/OPEN = 1e9/ | runtime/check_bodies

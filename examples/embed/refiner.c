@@ -633,10 +633,9 @@
 #define REFINER_SIGHT_UNKNOWN 0.1
 /* shares of a pair of groups in half shadow, seen from four points, that may be wrong. Of how much
  * more one point or corner sees than another: where a line parts a face, the points on one side of
- * it stand for at most so much more or less of the face. The least of that; and where nothing that
- * may hide is seen from any: chosen: a strip of a quarter that fades, and a tenth of it */
+ * it stand for at most so much more or less of the face. At the least, for what none of them sees;
+ * chosen: a strip of a quarter that fades */
 #define REFINER_SHADOW_BETWEEN 0.31
-#define REFINER_SHADOW_LEAST 0.0125
 #define REFINER_SHADOW_UNSEEN 0.125
 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
 #define REFINER_CLOSURE_ENOUGH 1e-12

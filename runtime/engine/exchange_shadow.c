@@ -279,15 +279,13 @@ static double seen_from(const struct element *e, struct face_range range,
 }
 
 /* Which share of a pair the points may be wrong by: of how far they and the corners differ, what a
- * line that parts the face may be misjudged by. Where all agree, what stands between them is not
- * seen: a strip as wide as a quarter of the face. */
+ * line that parts the face may be misjudged by; and a strip as wide as a quarter of the face, which
+ * none of them sees, whether they agree of what they do see or not. */
 static double doubt_of(const struct shadow_sight *sight, double area)
 {
     if (sight->proved)
         return 0;
-    if (!(sight->high > sight->low))
-        return SHADOW_UNSEEN;
-    return fmax(SHADOW_BETWEEN * (sight->high - sight->low) / area, SHADOW_LEAST);
+    return fmax(SHADOW_BETWEEN * (sight->high - sight->low) / area, SHADOW_UNSEEN);
 }
 
 double shadow_block(const struct exchange_pair *pair, const struct blockers *list,

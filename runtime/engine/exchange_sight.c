@@ -79,8 +79,7 @@ int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits 
     scratch->bodies = malloc(sizeof *scratch->bodies);
     scratch->known = calloc(1, sizeof *scratch->known);
     for (int i = 0; i < 2; i++)
-        face_fit_open(&scratch->fit[i], 3 + i, 2);
-    face_fit_open(&scratch->inside, 4, 1);
+        face_fit_open(&scratch->fit[i], 3 + i);
     return scratch->nodes && scratch->lists && scratch->heap && scratch->between && scratch->bodies
                    && scratch->known
                ? 0
@@ -357,14 +356,6 @@ double sight_rest(const struct face_fit *fit, const double *seen, const double *
     return all > 0 ? face_fit_rest(fit, hidden) * clear / all : 0;
 }
 
-/* The same of a piece's points. */
-static double fit_rest(const struct face_fit *fit, const struct sight_node *node,
-                       const double *seen, const double *whole)
-{
-    return sight_rest(fit, seen, whole, node->clear > 0 ? node->points / node->clear : 0,
-                      node->clear);
-}
-
 /* How far a piece's points are from telling its exchange (m2): what the two rules differ by, or
  * what the best quadratic leaves. */
 static double rest_of(struct looking *l, struct sight_node *node, double *differ)
@@ -377,7 +368,8 @@ static double rest_of(struct looking *l, struct sight_node *node, double *differ
     whole[inside + FACE_MIDDLE] = whole[FACE_MIDDLE];
     const struct mean rim = by_points(l, &node->piece, 1, seen + inside, whole + inside);
     *differ = fabs(node->points - node->clear * share(rim));
-    return fit_rest(&l->scratch->fit[node->piece.vertices - 3], node, seen, whole);
+    return sight_rest(&l->scratch->fit[node->piece.vertices - 3], seen, whole,
+                      node->clear > 0 ? node->points / node->clear : 0, node->clear);
 }
 
 /* Are there so many pieces left? */
@@ -451,20 +443,16 @@ static int tells_alike(const struct sight_node *node, double differ)
 }
 
 /* Hold a piece against its rim and its quarters; in scenes of many faces, whose entries are many,
- * not where its points tell it to its share of what is aimed at, `aim` per area, and without its
- * rim where those inside tell of more than all that is allowed. */
+ * not where its points tell it to its share of what is aimed at, `aim` per area. Also where those
+ * inside tell that it has to be cut, its rim is asked: they may agree with its quarters' by chance
+ * past a shade that lies along a side, as a seat's on its legs. */
 static void compare(struct looking *l, int at, double aim)
 {
     struct sight_node *node = &l->scratch->nodes[at];
     double differ;
-    int known = 0;
     if (node->count == 0)
         return;
-    if (l->believes && !node->by_rays && node->piece.vertices == 4) {
-        node->rest = fit_rest(&l->scratch->inside, node, node->seen, node->whole);
-        known = SIGHT_BELIEVED * SIGHT_REST * node->rest > aim * l->from->area;
-    }
-    if (!node->by_rays && !known && has_room(l, QUARTERS)) {
+    if (!node->by_rays && has_room(l, QUARTERS)) {
         if (l->between_of != at)
             (void)find_between(l, &node->piece, 0, list_of(l, at), node->count);
         node->rest = rest_of(l, node, &differ);

@@ -18,7 +18,6 @@ struct sight_scratch {
     struct sight_bodies *bodies;
     struct sight_known *known; /* of all pairs so far */
     struct face_fit fit[2];    /* of triangles, of quads */
-    struct face_fit inside;    /* of a quad, without its rim */
     struct sight_limits limits;
 };
 

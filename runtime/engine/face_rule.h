@@ -121,17 +121,17 @@ static inline void face_rule_of(struct face_rule *rule, const struct element *e,
         face_rule_of_quad(rule, e, rim);
 }
 
-/* Polynomials of degree 2 at the points of both rules, or of the first alone, orthonormal. */
+/* Polynomials of degree 2 at the points of both rules, orthonormal. */
 enum { FACE_FIT = 6 };
 struct face_fit {
     int count; /* of points: those inside, then those on the rim */
     double basis[FACE_FIT][2 * FACE_RULE];
 };
 
-static inline void face_fit_open(struct face_fit *fit, int vertices, int rules)
+static inline void face_fit_open(struct face_fit *fit, int vertices)
 {
     fit->count = 0;
-    for (int rim = 0; rim < rules; rim++) {
+    for (int rim = 0; rim < 2; rim++) {
         for (int i = 0; i < face_rule_count(vertices, rim); i++) {
             double at[2];
             face_rule_place(vertices, rim, i, at);
