@@ -10,7 +10,6 @@
  * free of bias: it has B~'s error at second and later points, in the mean over all that the polygon
  * sees. [final gathering: Reichert 1992; Jensen 2001, section 9.3, for what is near]
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include <stdlib.h>
 #include "engine/dim_paths.h"
 #include "particles/paths.h"
@@ -20,50 +19,40 @@
 /* Random numbers that nothing else takes; each polygon has its own. */
 static const uint64_t STREAM = (uint64_t)0x64696d << 32;
 
+/* Where a path has come to from `from`: adds what leaves that point to h[bands], if the solution
+ * may be asked for it. */
+static int ask_solution(const struct dim_faces *d, const struct path *p, const double from[3],
+                        double *h)
+{
+    const struct tracer *t = d->tracer;
+    double away[3];
+    if (d->of[d->part[p->face]] != NOT_DIM)
+        return 0;
+    const struct leaf_light leaf = quarter_light_at(&d->light, p->face, p->at);
+    sub3(away, p->at, from);
+    if (!(dot3(away, away) > leaf.area && leaf.irradiance >= d->believed))
+        return 0;
+    for (uint32_t k = 0; k < t->bands; k++)
+        h[k] += p->through[k] * (leaf.radiosity[k] - t->exitance[(size_t)p->face * t->bands + k]);
+    return 1;
+}
+
 /* What one path from x, just in front of the face, finds: h[bands], 0 before. *sighted is raised
  * where it meets a front. */
-static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], struct dice *dice,
-                       double *h, uint64_t *rays, uint64_t *sighted)
+static void trace_path(const struct dim_faces *d, uint32_t face, const double x[3],
+                       struct dice *dice, double *h, uint64_t *rays, uint64_t *sighted)
 {
-    static const struct path_rays each = {1, 1};
-    const struct tracer *t = d->tracer;
-    double through[3] = {1, 1, 1}, at[3];
+    struct path p = path_from(face, x);
     for (int met_before = 0;; met_before++) {
-        const double from[3] = {x[0], x[1], x[2]};
-        double found[3] = {0, 0, 0}, u[5], away[3], strong = 0, left = 0;
-        for (int i = 0; i < 5; i++)
-            u[i] = dice_throw(dice);
-        *rays += 1 + (uint64_t)path_to_light(t, face, x, u, &each, found);
-        int64_t met = path_onward(t, face, x, u[3], u[4], &each, found, at);
-        for (uint32_t k = 0; k < t->bands; k++)
-            h[k] += through[k] * found[k];
-        if (met < 0)
+        const double from[3] = {p.x[0], p.x[1], p.x[2]};
+        if (!path_step(d->tracer, &p, dice, h, rays))
             return;
         *sighted += met_before == 0;
-        face = (uint32_t)met;
-        if (met_before > 0 && d->of[d->part[face]] == NOT_DIM) {
-            const struct leaf_light leaf = quarter_light_at(&d->light, face, at);
-            sub3(away, at, from);
-            if (dot3(away, away) > leaf.area && leaf.irradiance >= d->believed) {
-                for (uint32_t k = 0; k < t->bands; k++)
-                    h[k] +=
-                        through[k] * (leaf.radiosity[k] - t->exitance[(size_t)face * t->bands + k]);
-                return;
-            }
-        }
-        for (uint32_t k = 0; k < t->bands; k++) {
-            strong = fmax(strong, through[k]);
-            through[k] *= t->reflectance[(size_t)face * t->bands + k];
-            left = fmax(left, through[k]);
-        }
-        if (!(left > 0))
+        if (met_before > 0 && ask_solution(d, &p, from, h))
             return;
-        if (met_before == 0) /* goes on for certain: two points are what a path is for */
-            continue;
-        if (!(dice_throw(dice) * strong < left))
+        /* At first it goes on for certain: two points are what a path is for. */
+        if (!path_reflect(d->tracer, &p, met_before > 0 ? dice : NULL))
             return;
-        for (uint32_t k = 0; k < t->bands; k++)
-            through[k] *= strong / left;
     }
 }
 

@@ -5,6 +5,7 @@
  * (light_tree.h), A its area. With n_c and n_l rays of either kind, each counts what it finds as
  * E c / (n_c c + n_l d), by whichever it was found.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include "kernel/lambert.h"
 #include "particles/paths.h"
 
@@ -54,32 +55,46 @@ int64_t path_onward(const struct tracer *t, uint32_t face, double p[3], double u
     return met;
 }
 
+int path_step(const struct tracer *t, struct path *p, struct dice *dice, double *h, uint64_t *rays)
+{
+    static const struct path_rays each = {1, 1};
+    double found[3] = {0, 0, 0}, u[5];
+    for (int i = 0; i < 5; i++)
+        u[i] = dice_throw(dice);
+    *rays += 1 + (uint64_t)path_to_light(t, p->face, p->x, u, &each, found);
+    int64_t met = path_onward(t, p->face, p->x, u[3], u[4], &each, found, p->at);
+    for (uint32_t k = 0; k < t->bands; k++)
+        h[k] += p->through[k] * found[k];
+    if (met < 0)
+        return 0;
+    p->face = (uint32_t)met;
+    return 1;
+}
+
+int path_reflect(const struct tracer *t, struct path *p, struct dice *dice)
+{
+    double strongest = 0, left = 0;
+    for (uint32_t k = 0; k < t->bands; k++) {
+        strongest = fmax(strongest, p->through[k]);
+        p->through[k] *= t->reflectance[(size_t)p->face * t->bands + k];
+        left = fmax(left, p->through[k]);
+    }
+    if (!dice)
+        return left > 0;
+    if (!(dice_throw(dice) * strongest < left))
+        return 0;
+    for (uint32_t k = 0; k < t->bands; k++)
+        p->through[k] *= strongest / left;
+    return 1;
+}
+
 void path_irradiance(const struct tracer *t, uint32_t face, const double p[3], struct dice *dice,
                      double *h, uint64_t *rays)
 {
-    const struct path_rays each = {1, 1};
-    double through[3] = {1, 1, 1}, x[3] = {p[0], p[1], p[2]}, at[3];
+    struct path path = path_from(face, p);
     for (uint32_t k = 0; k < t->bands; k++)
         h[k] = 0;
-    while (t->light_tree.count > 0) {
-        double found[3] = {0, 0, 0}, u[5], strongest = 0, left = 0;
-        for (int d = 0; d < 5; d++)
-            u[d] = dice_throw(dice);
-        *rays += 1 + (uint64_t)path_to_light(t, face, x, u, &each, found);
-        int64_t met = path_onward(t, face, x, u[3], u[4], &each, found, at);
-        for (uint32_t k = 0; k < t->bands; k++)
-            h[k] += through[k] * found[k];
-        if (met < 0)
-            return;
-        face = (uint32_t)met;
-        for (uint32_t k = 0; k < t->bands; k++) {
-            strongest = through[k] > strongest ? through[k] : strongest;
-            through[k] *= t->reflectance[(size_t)face * t->bands + k];
-            left = through[k] > left ? through[k] : left;
-        }
-        if (!(dice_throw(dice) * strongest < left))
-            return;
-        for (uint32_t k = 0; k < t->bands; k++)
-            through[k] *= strongest / left;
-    }
+    while (t->light_tree.count > 0 && path_step(t, &path, dice, h, rays)
+           && path_reflect(t, &path, dice))
+        ;
 }

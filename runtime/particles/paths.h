@@ -39,6 +39,28 @@ int path_to_light(const struct tracer *t, uint32_t face, const double p[3], cons
 int64_t path_onward(const struct tracer *t, uint32_t face, double p[3], double u, double v,
                     const struct path_rays *rays, double *h, double at[3]);
 
+/* A path on its way. */
+struct path {
+    uint32_t face;
+    double x[3];       /* where it goes on from, just in front of the face (m) */
+    double at[3];      /* the same point in the face's plane, once it has met one */
+    double through[3]; /* [band]: how much of what arrives here arrives where it began */
+};
+
+static inline struct path path_from(uint32_t face, const double x[3])
+{
+    return (struct path){.face = face, .x = {x[0], x[1], x[2]}, .through = {1, 1, 1}};
+}
+
+/* Looks for emitters from where the path is, by one ray of each kind, and adds what they bring to
+ * where it began to h[bands] (W/m2). Then it is at the face that the ray by the cosine meets; 0:
+ * there is none. The scene has emitters. How many rays that took is added to *rays. */
+int path_step(const struct tracer *t, struct path *p, struct dice *dice, double *h, uint64_t *rays);
+
+/* The face that the path has met reflects. 0: it ends there, by chance as said above; with no dice
+ * where no band is left. */
+int path_reflect(const struct tracer *t, struct path *p, struct dice *dice);
+
 /* The irradiance at p (m), just in front of the face (tracer_point): h[bands] (W/m2) by one path,
  * right in the mean, and how many rays that took is added to *rays: at each of its points one by
  * the cosine and, towards emitters that face it, another one; so no more than 2 / (1 - rho) in the
