@@ -21,7 +21,6 @@ enum { PART_NODES = 100 };
  * is used, and of one oracle all but its `struct oracle`. */
 void dag_emit_banner(const struct dag *dag, struct text *out);
 unsigned char *dag_emit_reached_tools(struct dag *dag); /* by tool */
-unsigned char *dag_emit_reached_terms(struct dag *dag); /* by term: some argument reads it */
 void dag_emit_known_macro(struct dag *dag, struct text *out, const struct emit_options *options);
 void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                        const struct emit_options *options);
@@ -73,6 +72,12 @@ void dag_emit_expression(struct dag *dag, struct text *out, const struct node *n
                          const struct argument *argument, const struct place *place, int *value);
 void dag_emit_shared_argument(struct dag *dag, struct text *out, const struct argument *argument,
                               const char *at, int doubtful);
+/* What the arguments of all reached nodes call, each 1 at its number. */
+struct dag_reached {
+    unsigned char *facts, *callbacks, *terms;
+    int minimum, maximum, arithmetic; /* 1: there is some */
+};
+struct dag_reached dag_emit_reached(struct dag *dag);
 /* May some argument of a reached node be no number? The discussion must be able to say so. */
 int dag_emit_has_doubts(const struct dag *dag);
 void dag_emit_externs(struct dag *dag, struct text *out); /* prototypes */

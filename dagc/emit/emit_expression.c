@@ -268,12 +268,7 @@ int dag_has_reads(const struct dag *dag, const struct node *node, const struct p
 
 /* ---- what the expressions of all reached nodes call */
 
-struct reached {
-    unsigned char *facts, *callbacks, *terms;
-    int minimum, maximum, arithmetic;
-};
-
-static void reach(const struct dag *dag, struct reached *reached, int expression)
+static void reach(const struct dag *dag, struct dag_reached *reached, int expression)
 {
     const struct expression *e = &dag->expressions[expression];
     if (e->kind == EXPRESSION_FACT)
@@ -300,9 +295,9 @@ int dag_emit_has_doubts(const struct dag *dag)
     return 0;
 }
 
-static struct reached reach_all(struct dag *dag)
+struct dag_reached dag_emit_reached(struct dag *dag)
 {
-    struct reached reached = {0};
+    struct dag_reached reached = {0};
     reached.facts = dag_alloc(&dag->arena, (size_t)dag->fact_count);
     reached.callbacks = dag_alloc(&dag->arena, (size_t)dag->callback_count);
     reached.terms = dag_alloc(&dag->arena, (size_t)dag->term_count);
@@ -316,14 +311,9 @@ static struct reached reach_all(struct dag *dag)
     return reached;
 }
 
-unsigned char *dag_emit_reached_terms(struct dag *dag)
-{
-    return reach_all(dag).terms;
-}
-
 void dag_emit_externs(struct dag *dag, struct text *out)
 {
-    struct reached reached = reach_all(dag);
+    struct dag_reached reached = dag_emit_reached(dag);
     for (int i = 0; i < dag->callback_count; i++) {
         const struct callback *callback = &dag->callbacks[i];
         if (!reached.callbacks[i])
@@ -339,7 +329,7 @@ void dag_emit_externs(struct dag *dag, struct text *out)
 
 int dag_emit_extern_calls(struct dag *dag, struct text *out)
 {
-    struct reached reached = reach_all(dag);
+    struct dag_reached reached = dag_emit_reached(dag);
     int count = 0;
     dag_print(out, "#include \"%s\"\n", dag->runtime_header);
     for (int i = 0; i < dag->callback_count; i++) {
@@ -358,7 +348,7 @@ int dag_emit_extern_calls(struct dag *dag, struct text *out)
 
 void dag_emit_accessors(struct dag *dag, struct text *out)
 {
-    struct reached reached = reach_all(dag);
+    struct dag_reached reached = dag_emit_reached(dag);
     for (int i = 0; i < dag->term_count; i++)
         if (reached.terms[i])
             dag_print(out, "#include \"%s\"\n", dag->terms[i].header);

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "analyse/analyse.h"
+#include "emit/emit.h"
 
 static void print_text(struct text *out, const char *value)
 {
@@ -72,24 +73,6 @@ static void use_parameters(const struct dag *dag, struct used *used, struct span
         used->types[dag->parameters[i].type] = 1;
 }
 
-/* Facts, externs and what these read; terms are among the node's reads. */
-static void use_expression(const struct dag *dag, struct used *used, int expression)
-{
-    const struct expression *e = &dag->expressions[expression];
-    if (e->kind == EXPRESSION_FACT) {
-        used->facts[e->index] = 1;
-        used->types[dag->facts[e->index].type] = 1;
-    } else if (e->kind == EXPRESSION_EXTERN) {
-        used->callbacks[e->index] = 1;
-        used->types[dag->callbacks[e->index].type] = 1;
-        use_needs(dag, used, dag->callbacks[e->index].reads);
-    }
-    if (e->left >= 0)
-        use_expression(dag, used, e->left);
-    if (e->right >= 0)
-        use_expression(dag, used, e->right);
-}
-
 static struct used find_used(struct dag *dag)
 {
     struct used used;
@@ -97,18 +80,25 @@ static struct used find_used(struct dag *dag)
     used.decisions = dag_alloc(&dag->arena, (size_t)dag->decision_count);
     used.terms = dag_alloc(&dag->arena, (size_t)dag->term_count);
     used.types = dag_alloc(&dag->arena, (size_t)dag->type_count);
-    used.facts = dag_alloc(&dag->arena, (size_t)dag->fact_count);
-    used.callbacks = dag_alloc(&dag->arena, (size_t)dag->callback_count);
+    const struct dag_reached reached = dag_emit_reached(dag);
+    used.facts = reached.facts;
+    used.callbacks = reached.callbacks;
     for (int i = 0; i < dag->order_count; i++) {
         const struct node *node = &dag->nodes[dag->order[i]];
         used.tools[node->tool] = 1;
         use_needs(dag, &used, node->reads);
-        for (int a = node->arguments.first; a < node->arguments.first + node->arguments.count; a++)
-            use_expression(dag, &used, dag->arguments[a].expression);
         for (int a = node->arcs.first; a < node->arcs.first + node->arcs.count; a++)
             if (dag->arcs[a].target.kind == TARGET_DECISION)
                 used.decisions[dag->arcs[a].target.index] = 1;
     }
+    for (int i = 0; i < dag->fact_count; i++)
+        if (used.facts[i])
+            used.types[dag->facts[i].type] = 1;
+    for (int i = 0; i < dag->callback_count; i++)
+        if (used.callbacks[i]) {
+            used.types[dag->callbacks[i].type] = 1;
+            use_needs(dag, &used, dag->callbacks[i].reads);
+        }
     for (int i = 0; i < dag->tool_count; i++)
         if (used.tools[i]) {
             use_needs(dag, &used, dag->tools[i].reads);

@@ -80,7 +80,7 @@ static void put_public(struct standalone *s, struct text *out)
 static void put_private(struct standalone *s, struct text *out)
 {
     struct dag *dag = s->dag;
-    const unsigned char *terms = dag_emit_reached_terms(dag);
+    const unsigned char *terms = dag_emit_reached(dag).terms;
     for (int i = 0; i < dag->tool_count; i++)
         if (s->reached[i])
             put(s, out, dag->tools[i].header, dag->tools[i].where);

@@ -89,7 +89,7 @@ static const char *c_type(const struct dag *dag, const struct parameter *paramet
 
 void dag_emit_wave_headers(struct dag *dag, struct text *out, const unsigned char *reached)
 {
-    const unsigned char *terms = dag_emit_reached_terms(dag);
+    const unsigned char *terms = dag_emit_reached(dag).terms;
     for (int i = 0; i < dag->tool_count; i++)
         if (reached[i] && dag->tools[i].wave != NULL)
             dag_print(out, "#include \"%s\"\n", dag->tools[i].wave);

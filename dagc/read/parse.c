@@ -193,6 +193,21 @@ int dag_parse_parameter(struct parser *parser)
     return 1;
 }
 
+int dag_parse_parameters(struct parser *parser, const char *after, struct span *span)
+{
+    if (!dag_expect(parser, '(', after))
+        return 0;
+    while (!dag_at_mark(parser, ')')) {
+        int ok = dag_parse_parameter(parser);
+        span->count = parser->dag->parameter_count - span->first;
+        if (!ok)
+            return 0;
+        if (!dag_take(parser, ','))
+            break;
+    }
+    return dag_expect(parser, ')', "or ',' after a parameter");
+}
+
 static const char *const item_words[] = {"import", "graph",  "oracle", "catalog", "runtime",
                                          "verb",   "unit",   "type",   "term",    "fact",
                                          "role",   "extern", "tool",   "decision"};

@@ -46,6 +46,9 @@ int dag_at_number(const struct parser *parser);
 int dag_parse_range(struct parser *parser, double *low, double *high, struct where *where);
 /* parameter = NAME ":" NAME [ "=" number ] [ range ] [ "role" NAME ] [ STRING ] */
 int dag_parse_parameter(struct parser *parser);
+/* parameters = "(" [ parameter { "," parameter } ] ")"; span->first is given, and the count is also
+ * right where an error ends them */
+int dag_parse_parameters(struct parser *parser, const char *after, struct span *span);
 /* answers = "(" NAME [ kind ] { "," NAME [ kind ] } ")" */
 int dag_parse_answers(struct parser *parser, struct span *span);
 /* guards = "guards" "(" allowed { "," allowed } ")" [ "by" "(" NAME { "," NAME } ")" ]

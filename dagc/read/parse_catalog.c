@@ -327,46 +327,10 @@ int dag_parse_answers(struct parser *parser, struct span *span)
     return dag_expect(parser, ')', "or ',' after an answer");
 }
 
-/* tool = "tool" NAME "(" [ parameter { "," parameter } ] ")" ( "question" | "command" )
- *        "answers" answers
- *        { "reads" needs | "writes" needs | guards | "counts" | "records" | "header" STRING
- *        | "wave" | "anywhere" }
- *        [ STRING ] ";" */
-static int parse_tool(struct parser *parser)
+/* clauses = { "reads" needs | "writes" needs | guards | "counts" | "records" | "header" STRING
+ *           | "wave" | "anywhere" }; *wave is raised by that word */
+static int parse_clauses(struct parser *parser, struct tool *t, int *wave)
 {
-    struct dag *dag = parser->dag;
-    struct tool tool = {0};
-    tool.doc = "";
-    if (!dag_expect_name(parser, "the name of a tool", &tool.name, &tool.where)) {
-        dag->lost = 1;
-        return 0;
-    }
-    int index = ADD(dag, tools, tool_count);
-    struct tool *t = &dag->tools[index];
-    *t = tool;
-    t->header = dag_format(&dag->arena, "tools/%s.h", t->name);
-    t->parameters.first = dag->parameter_count;
-    int wave = 0;
-    if (!dag_expect(parser, '(', "after the tool's name"))
-        return 0;
-    while (!dag_at_mark(parser, ')')) {
-        int ok = dag_parse_parameter(parser);
-        t->parameters.count = dag->parameter_count - t->parameters.first;
-        if (!ok)
-            return 0;
-        if (!dag_take(parser, ','))
-            break;
-    }
-    if (!dag_expect(parser, ')', "or ',' after a parameter"))
-        return 0;
-    if (dag_take_word(parser, "command"))
-        t->kind = TOOL_COMMAND;
-    else if (!dag_take_word(parser, "question"))
-        return dag_expected(parser, "'question' or 'command'");
-    if (!dag_take_word(parser, "answers"))
-        return dag_expected(parser, "'answers'");
-    if (!dag_parse_answers(parser, &t->answers))
-        return 0;
     for (;;) {
         if (dag_take_word(parser, "reads")) {
             if (!parse_needs(parser, &t->reads))
@@ -387,12 +351,41 @@ static int parse_tool(struct parser *parser)
             if (!dag_expect_string(parser, "the name of a C header, a string", &t->header))
                 return 0;
         } else if (dag_take_word(parser, "wave"))
-            wave = 1;
+            *wave = 1;
         else if (dag_take_word(parser, "anywhere"))
             t->anywhere = 1;
         else
-            break;
+            return 1;
     }
+}
+
+/* tool = "tool" NAME parameters ( "question" | "command" ) "answers" answers
+ *        clauses [ STRING ] ";" */
+static int parse_tool(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct tool tool = {0};
+    tool.doc = "";
+    if (!dag_expect_name(parser, "the name of a tool", &tool.name, &tool.where)) {
+        dag->lost = 1;
+        return 0;
+    }
+    int index = ADD(dag, tools, tool_count);
+    struct tool *t = &dag->tools[index];
+    *t = tool;
+    t->header = dag_format(&dag->arena, "tools/%s.h", t->name);
+    t->parameters.first = dag->parameter_count;
+    int wave = 0;
+    if (!dag_parse_parameters(parser, "after the tool's name", &t->parameters))
+        return 0;
+    if (dag_take_word(parser, "command"))
+        t->kind = TOOL_COMMAND;
+    else if (!dag_take_word(parser, "question"))
+        return dag_expected(parser, "'question' or 'command'");
+    if (!dag_take_word(parser, "answers"))
+        return dag_expected(parser, "'answers'");
+    if (!dag_parse_answers(parser, &t->answers) || !parse_clauses(parser, t, &wave))
+        return 0;
     t->wave = wave ? wave_header(dag, t->header) : NULL;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &t->doc))
         return 0;

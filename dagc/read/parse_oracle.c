@@ -320,7 +320,7 @@ int dag_parse_oracle(struct parser *parser)
     return parse_body(parser, &dag->oracles[index], "oracle");
 }
 
-/* graph = "graph" NAME "(" [ parameter { "," parameter } ] ")" "exits" answers [ STRING ] body */
+/* graph = "graph" NAME parameters "exits" answers [ STRING ] body */
 int dag_parse_branch(struct parser *parser)
 {
     struct dag *dag = parser->dag;
@@ -335,17 +335,7 @@ int dag_parse_branch(struct parser *parser)
     struct oracle_graph *b = &dag->branches[index];
     *b = branch;
     b->bad = 1;
-    if (!dag_expect(parser, '(', "after the graph's name"))
-        return 0;
-    while (!dag_at_mark(parser, ')')) {
-        int ok = dag_parse_parameter(parser);
-        b->parameters.count = dag->parameter_count - b->parameters.first;
-        if (!ok)
-            return 0;
-        if (!dag_take(parser, ','))
-            break;
-    }
-    if (!dag_expect(parser, ')', "or ',' after a parameter"))
+    if (!dag_parse_parameters(parser, "after the graph's name", &b->parameters))
         return 0;
     if (!dag_take_word(parser, "exits"))
         return dag_expected(parser, "'exits'");
