@@ -214,8 +214,8 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
                                         json_text(s->names[i] ? s->names[i] : number), "to_sky",
                                         s->ways_out[i][0], "to_backs", s->ways_out[i][1]));
     }
-    return json_pack("{s:o, s:i, s:o, s:f}", "scene", json_text(o->scene), "faces",
-                     (int)scene->originals, "sensors", list, "seconds", time);
+    return json_pack("{s:o, s:I, s:o, s:f}", "scene", json_text(o->scene), "faces",
+                     (json_int_t)scene->originals, "sensors", list, "seconds", time);
 }
 
 int sensor_rows(const struct options *o, const struct open_scene *scene)

@@ -80,19 +80,20 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
                            const struct RadExchangeReport *r, double write_seconds)
 {
     return json_pack(
-        "{s:o, s:i, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:f, s:f, s:s, s:f, s:f, "
-        "s:f, s:f, s:f, s:f, s:i, s:f, s:f, s:f}",
-        "scene", json_text(o->scene), "faces", (int)scene->originals, "links", (json_int_t)r->links,
-        "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays, "row_sum_smallest", r->low,
-        "row_sum_largest", r->high, "row_defect_largest", r->defect_most, "row_defect_mean",
-        r->defect_mean, "rows_closed", (int)r->rows_closed, "rows_to_sky", (int)r->rows_open,
-        "rows_covered", (int)r->rows_covered, "to_sky_largest", r->environment_most, "to_sky_mean",
+        "{s:o, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:f, s:f, s:s, s:f, s:f, "
+        "s:f, s:f, s:f, s:f, s:I, s:f, s:f, s:f}",
+        "scene", json_text(o->scene), "faces", (json_int_t)scene->originals, "links",
+        (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays,
+        "row_sum_smallest", r->low, "row_sum_largest", r->high, "row_defect_largest",
+        r->defect_most, "row_defect_mean", r->defect_mean, "rows_closed",
+        (json_int_t)r->rows_closed, "rows_to_sky", (json_int_t)r->rows_open, "rows_covered",
+        (json_int_t)r->rows_covered, "to_sky_largest", r->environment_most, "to_sky_mean",
         r->environment_mean, "closure", closure_words[o->closure], "closure_largest_change",
         r->closure_change, "closure_defect_left", r->closure_left, "seconds",
         r->seconds.refine + r->seconds.fill + write_seconds, "seconds_refine", r->seconds.refine,
         "seconds_fill", r->seconds.fill, "seconds_write", write_seconds, "rows_to_backs",
-        (int)r->rows_backs, "to_backs_largest", r->backs_most, "to_backs_mean", r->backs_mean,
-        "entry_error_largest", r->entry_error);
+        (json_int_t)r->rows_backs, "to_backs_largest", r->backs_most, "to_backs_mean",
+        r->backs_mean, "entry_error_largest", r->entry_error);
 }
 
 /* The matrix, or a product with it, and its names; of how many rows. Returns 0, or -1 after a
