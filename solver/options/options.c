@@ -356,135 +356,195 @@ static int may_slope(const struct options *o)
            && (o->solver == RAD_SOLVER_GAUSS_SEIDEL || o->solver == RAD_SOLVER_JACOBI);
 }
 
-/* What no option says by itself. Returns -1, or the exit status. */
-static int check_together(struct options *o)
+/* What a command cannot do without. This and what follows return -1, or the exit status after a
+ * message. */
+static int check_needed(const struct options *o, const char *name)
 {
-    const struct command_row *c = &command_rows[o->command];
+    const char *argument = command_rows[o->command].argument;
     if (o->command == COMMAND_ERROR && !o->reference)
-        return wrong(c->name, "two tables are needed, FACES.csv and REF.csv");
+        return wrong(name, "two tables are needed, FACES.csv and REF.csv");
     if (o->command == COMMAND_TUNE && !o->scene_count)
-        return wrong(c->name, "%s",
+        return wrong(name, "%s",
                      o->oracle ? "no scene is given" : "an oracle and scenes are needed");
-    if (strcmp(c->argument, "ORACLE") == 0 && !o->oracle)
-        return wrong(c->name, "no oracle is given");
+    if (strcmp(argument, "ORACLE") == 0 && !o->oracle)
+        return wrong(name, "no oracle is given");
     if (o->command == COMMAND_DRAW && !o->out)
-        return wrong(c->name, "the drawing's name is missing: -o FILE.svg");
+        return wrong(name, "the drawing's name is missing: -o FILE.svg");
     if (o->command == COMMAND_PANEL && !o->out)
-        return wrong(c->name, "the page's name is missing: -o FILE.html");
-    if (*c->argument && strcmp(c->argument, "ORACLE") != 0 && !o->scene)
-        return wrong(c->name, "no scene is given");
+        return wrong(name, "the page's name is missing: -o FILE.html");
+    if (*argument && strcmp(argument, "ORACLE") != 0 && !o->scene)
+        return wrong(name, "no scene is given");
     if (o->command == COMMAND_REFERENCE && !o->out)
-        return wrong(c->name, "the table's name is missing: -o FILE.csv");
+        return wrong(name, "the table's name is missing: -o FILE.csv");
+    return -1;
+}
+
+/* Who looks at an oracle needs the release that lets him. */
+static int check_watching(const struct options *o, const char *name)
+{
     if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)
         return wrong(
-            c->name,
+            name,
             "--statistics counts what the interpreted graph does: it takes no --release but dag");
     if (o->trace && o->release_given && o->release != RAD_RELEASE_DAG)
-        return wrong(c->name,
-                     "--trace watches the interpreted graph: it takes no --release but dag");
+        return wrong(name, "--trace watches the interpreted graph: it takes no --release but dag");
     if (o->trace && (o->statistics || o->accuracy > 0))
-        return wrong(c->name,
+        return wrong(name,
                      "--trace is of one refinement, and nothing is counted meanwhile: it "
                      "does not go with %s",
                      o->statistics ? "--statistics" : "--accuracy");
+    if (o->where && !o->trace)
+        return wrong(name, "--where picks lines of a trace: add --trace FILE");
+    if (o->replacement_count && o->release == RAD_RELEASE_HAND)
+        return wrong(name, "--replace is of a graph: it takes no --release hand");
+    if (o->command == COMMAND_EXPLAIN && !o->pair == !o->at)
+        return wrong(name, "%s",
+                     o->pair ? "--pair and --at both name a pair: give one"
+                             : "which pair? --pair RECEIVER,EMITTER or --at X,Y,Z:X,Y,Z");
+    if (o->step && o->json)
+        return wrong(name, "--step and --json do not go together");
+    return -1;
+}
+
+static int check_checkpoints(const struct options *o, const char *name)
+{
     const char *kept = o->checkpoint ? "--checkpoint" : o->restart ? "--restart" : NULL;
     if (kept && (o->accuracy > 0 || o->trace || o->statistics))
-        return wrong(c->name, "%s does not go with %s", kept,
+        return wrong(name, "%s does not go with %s", kept,
                      o->trace        ? "--trace"
                      : o->statistics ? "--statistics"
                                      : "--accuracy");
     const int xdmf = o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_XDMF;
     if ((kept || xdmf) && !hdf5_built())
-        return wrong(c->name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev",
+        return wrong(name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev",
                      kept ? kept : o->out);
-    if (o->where && !o->trace)
-        return wrong(c->name, "--where picks lines of a trace: add --trace FILE");
-    if (o->replacement_count && o->release == RAD_RELEASE_HAND)
-        return wrong(c->name, "--replace is of a graph: it takes no --release hand");
-    if (o->command == COMMAND_EXPLAIN && !o->pair == !o->at)
-        return wrong(c->name, "%s",
-                     o->pair ? "--pair and --at both name a pair: give one"
-                             : "which pair? --pair RECEIVER,EMITTER or --at X,Y,Z:X,Y,Z");
-    if (o->step && o->json)
-        return wrong(c->name, "--step and --json do not go together");
-    if (o->out && o->command == COMMAND_VIEWFACTORS && !o->format_given)
-        o->format = factor_format_of(o->out);
+    return -1;
+}
+
+/* Of viewfactors: how the matrix is written. */
+static int check_matrix(const struct options *o, const char *name)
+{
     if (o->command == COMMAND_VIEWFACTORS && !o->out && !o->sensor && !o->product
         && (o->format_given || o->losses || (o->by != BY_FACE && !o->names && !o->json)))
-        return wrong(c->name, "%s is about the matrix, which is written nowhere: add -o FILE",
+        return wrong(name, "%s is about the matrix, which is written nowhere: add -o FILE",
                      o->format_given ? "--format"
                      : o->losses     ? "--sky"
                                      : "--by");
     if (o->losses && factor_format_square(o->format))
-        return wrong(c->name, "--sky adds columns, and this format takes a square matrix: csv, "
-                              "coo, mtx and npz have room for them");
-    if (o->statistics || o->trace)
-        o->release = RAD_RELEASE_DAG;
+        return wrong(name, "--sky adds columns, and this format takes a square matrix: csv, "
+                           "coo, mtx and npz have room for them");
+    if (o->copies.count && o->closure == RAD_CLOSURE_RECIPROCAL)
+        return wrong(name, "--closure reciprocal makes one matrix of all faces: it does not go "
+                           "with --mirror and --repeat");
+    return -1;
+}
+
+/* Of viewfactors: what is written in place of the matrix. */
+static int check_rows_or_columns(const struct options *o, const char *name)
+{
     if (o->sensor && (o->format_given || o->closure || o->setting_count))
-        return wrong(c->name, "--sensor writes a table of exact cuts: it does not go with %s",
+        return wrong(name, "--sensor writes a table of exact cuts: it does not go with %s",
                      o->format_given ? "--format"
                      : o->closure    ? "--closure"
                                      : "--set");
     if (o->sensor && o->resume)
-        return wrong(c->name, "--sensor is soon done: it does not go with --resume");
+        return wrong(name, "--sensor is soon done: it does not go with --resume");
     if (o->product && (!o->out || o->sensor || o->format_given))
-        return wrong(c->name,
+        return wrong(name,
                      o->out ? "--product writes columns: it does not go with %s"
                             : "--product needs the name of what it writes: -o FILE%.0s",
                      o->sensor ? "--sensor" : "--format");
     if ((o->sensor || o->product) && o->out && factor_format_of(o->out) != FACTOR_CSV)
-        return wrong(c->name,
-                     "%s writes a table as text, and the name %s says matrix: name it .csv",
+        return wrong(name, "%s writes a table as text, and the name %s says matrix: name it .csv",
                      o->sensor ? "--sensor" : "--product", o->out);
     if ((o->sensor || o->product) && (o->by != BY_FACE || o->losses))
-        return wrong(c->name, "%s writes no matrix: it does not go with %s",
+        return wrong(name, "%s writes no matrix: it does not go with %s",
                      o->sensor ? "--sensor" : "--product", o->losses ? "--sky" : "--by");
     if (o->product && o->closure == RAD_CLOSURE_RECIPROCAL)
-        return wrong(c->name, "--closure reciprocal needs the whole matrix: it does not go with "
-                              "--product");
-    if (o->copies.count && o->closure == RAD_CLOSURE_RECIPROCAL)
-        return wrong(c->name, "--closure reciprocal makes one matrix of all faces: it does not go "
-                              "with --mirror and --repeat");
+        return wrong(name, "--closure reciprocal needs the whole matrix: it does not go with "
+                           "--product");
+    return -1;
+}
+
+static int check_accuracy(const struct options *o, const char *name)
+{
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))
-        return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
+        return wrong(name, "--accuracy mends and measures: it does not go with %s",
                      o->no_errors ? "--no-errors" : "--no-correct");
     if (o->command == COMMAND_SOLVE && o->limit_seconds && !(o->accuracy > 0))
-        return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+        return wrong(name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+    if ((o->scale > 0 || o->no_links) && o->accuracy > 0)
+        return wrong(name, "--accuracy chooses the scale: it does not go with --scale");
+    return -1;
+}
+
+static int check_solver(const struct options *o, const char *name)
+{
     if (!radHasSolver(o->solver))
-        return wrong(c->name, "--solver petsc: this command was built without PETSc; build it by "
-                              "make PETSC=1, or take another solver");
+        return wrong(name, "--solver petsc: this command was built without PETSc; build it by "
+                           "make PETSC=1, or take another solver");
+    if (o->basis == RAD_BASIS_LINEAR && !may_slope(o))
+        return wrong(name, "--basis linear goes with --projection galerkin, and with --solver "
+                           "gauss-seidel or jacobi");
+    return -1;
+}
+
+static int check_picture(const struct options *o, const char *name)
+{
+    if (o->mesh && !o->image && !o->image_error)
+        return wrong(name, "--mesh is for a picture: add --image FILE.png or --image-error "
+                           "FILE.png");
+    if (o->size_given && !o->image && !o->image_error && !o->view_given)
+        return wrong(name, "--size is for a picture: add --image FILE.png or --image-error "
+                           "FILE.png");
+    if (o->gather >= 0 && !o->image)
+        return wrong(name, "--gather is for a picture: add --image FILE.png");
+    return -1;
+}
+
+static int check_errors(const struct options *o, const char *name)
+{
+    if (o->no_links && o->errors == ERRORS_ALL)
+        return wrong(name, "--errors=all accounts for links: it does not go with --scale none");
+    if (o->correct && o->no_correct)
+        return wrong(name, "--correct and --no-correct contradict each other");
+    if (o->no_errors && (o->errors || o->image_error))
+        return wrong(name, "--no-errors and %s contradict each other",
+                     o->errors ? "--errors" : "--image-error");
+    if (o->errors != ERRORS_ALL
+        && (o->account.reflectance_error > 0 || o->account.exitance_error > 0))
+        return wrong(name, "--reflectance-error and --exitance-error are for the account of "
+                           "error: add --errors=all");
+    return -1;
+}
+
+/* What follows from other options where it is not given itself. */
+static void settle(struct options *o)
+{
+    if (o->out && o->command == COMMAND_VIEWFACTORS && !o->format_given)
+        o->format = factor_format_of(o->out);
+    if ((o->statistics || o->trace) && !o->release_given)
+        o->release = RAD_RELEASE_DAG;
     if ((o->command == COMMAND_SOLVE || o->command == COMMAND_TUNE) && !o->basis_given
         && may_slope(o))
         o->basis = RAD_BASIS_LINEAR;
-    if (o->basis == RAD_BASIS_LINEAR && !may_slope(o))
-        return wrong(c->name, "--basis linear goes with --projection galerkin, and with --solver "
-                              "gauss-seidel or jacobi");
     o->choose_scale = o->command == COMMAND_SOLVE && strcmp(o->oracle, RAD_DEFAULT_ORACLE) == 0
                       && !o->setting_count && !o->params && !o->replacement_count && !o->trace
                       && !o->statistics && !o->no_correct && !(o->accuracy > 0)
                       && o->basis == RAD_BASIS_LINEAR;
-    if ((o->scale > 0 || o->no_links) && o->accuracy > 0)
-        return wrong(c->name, "--accuracy chooses the scale: it does not go with --scale");
-    if (o->no_links && o->errors == ERRORS_ALL)
-        return wrong(c->name, "--errors=all accounts for links: it does not go with --scale none");
-    if (o->correct && o->no_correct)
-        return wrong(c->name, "--correct and --no-correct contradict each other");
-    if (o->mesh && !o->image && !o->image_error)
-        return wrong(c->name, "--mesh is for a picture: add --image FILE.png or --image-error "
-                              "FILE.png");
-    if (o->size_given && !o->image && !o->image_error && !o->view_given)
-        return wrong(c->name, "--size is for a picture: add --image FILE.png or --image-error "
-                              "FILE.png");
-    if (o->gather >= 0 && !o->image)
-        return wrong(c->name, "--gather is for a picture: add --image FILE.png");
-    if (o->no_errors && (o->errors || o->image_error))
-        return wrong(c->name, "--no-errors and %s contradict each other",
-                     o->errors ? "--errors" : "--image-error");
-    if (o->errors != ERRORS_ALL
-        && (o->account.reflectance_error > 0 || o->account.exitance_error > 0))
-        return wrong(c->name, "--reflectance-error and --exitance-error are for the account of "
-                              "error: add --errors=all");
-    return -1;
+}
+
+/* What no option says by itself. Returns -1, or the exit status. */
+static int check_together(struct options *o)
+{
+    static int (*const checks[])(const struct options *, const char *) = {
+        check_needed,   check_watching, check_checkpoints, check_matrix, check_rows_or_columns,
+        check_accuracy, check_solver,   check_picture,     check_errors};
+    int status = -1;
+    settle(o);
+    for (size_t i = 0; i < sizeof checks / sizeof *checks && status < 0; i++)
+        status = checks[i](o, command_rows[o->command].name);
+    return status;
 }
 
 int options_parse(struct options *o, int count, char **arguments)
