@@ -56,52 +56,62 @@ static const struct tool_entry *find_tool(const char *name)
     return NULL;
 }
 
+/* Room for all that build() fills in. Returns 0 or -1. */
+static int reserve(struct refiner *r, struct program *p, const struct oracle_graph *g)
+{
+    for (int i = 0; i < g->order.count; i++) {
+        const struct node *n = dag_node_at(p->dag, g, i);
+        p->argument_count += n->arguments.count;
+        p->answer_count += n->arcs.count;
+    }
+    p->steps = calloc((size_t)g->order.count, sizeof *p->steps);
+    p->arguments = calloc((size_t)p->argument_count + 1, sizeof *p->arguments);
+    p->expressions = calloc((size_t)p->argument_count + 1, sizeof *p->expressions);
+    p->next = calloc((size_t)p->answer_count + 1, sizeof *p->next);
+    p->parameters = calloc((size_t)g->parameters.count + 1, sizeof *p->parameters);
+    p->reads = calloc((size_t)p->dag->fact_count + 1, sizeof *p->reads);
+    r->block = calloc((size_t)g->parameters.count + 1, sizeof(double));
+    return !p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !p->reads
+                   || !r->block
+               ? -1
+               : 0;
+}
+
+static void build_parameters(struct program *p, const struct oracle_graph *g)
+{
+    for (int i = 0; i < g->parameters.count; i++) {
+        const struct parameter *q = &p->dag->parameters[g->parameters.first + i];
+        p->parameters[i] = (struct oracle_parameter){
+            .name = q->name,
+            .unit = p->dag->types[q->type].unit_text,
+            .doc = q->doc,
+            .value = q->value,
+            .low = q->low,
+            .high = q->high,
+            .integer = p->dag->types[q->type].base == BASE_INTEGER,
+            .offset = (size_t)i * sizeof(double),
+            .role = q->role + 1, /* none: 0 */
+            .fixed = q->fixed,
+        };
+    }
+}
+
 /* Steps in the graph's topological order; every span of the dag has been checked by dagc. */
 static int build(struct refiner *r, struct program *p, const struct oracle_graph *g,
                  struct messages *messages)
 {
     const struct dag *dag = p->dag;
     int arguments = 0, answers = 0;
-    for (int i = 0; i < g->order.count; i++) {
-        const struct node *n = dag_node_at(dag, g, i);
-        arguments += n->arguments.count;
-        answers += n->arcs.count;
-    }
     p->first_parameter = g->parameters.first;
     p->graph = g;
-    p->answer_count = answers;
-    p->argument_count = arguments;
-    p->steps = calloc((size_t)g->order.count, sizeof *p->steps);
-    p->arguments = calloc((size_t)arguments + 1, sizeof *p->arguments);
-    p->expressions = calloc((size_t)arguments + 1, sizeof *p->expressions);
-    p->next = calloc((size_t)answers + 1, sizeof *p->next);
-    p->parameters = calloc((size_t)g->parameters.count + 1, sizeof *p->parameters);
-    p->reads = calloc((size_t)dag->fact_count + 1, sizeof *p->reads);
-    r->block = calloc((size_t)g->parameters.count + 1, sizeof(double));
-    if (!p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !p->reads
-        || !r->block) {
+    if (reserve(r, p, g) < 0)
         return messages_say(messages, MESSAGE_MEMORY, "out of memory");
-    }
-    for (int i = 0; i < g->parameters.count; i++) {
-        const struct parameter *q = &dag->parameters[g->parameters.first + i];
-        struct oracle_parameter *o = &p->parameters[i];
-        o->name = q->name;
-        o->unit = dag->types[q->type].unit_text;
-        o->doc = q->doc;
-        o->value = q->value;
-        o->low = q->low;
-        o->high = q->high;
-        o->integer = dag->types[q->type].base == BASE_INTEGER;
-        o->offset = (size_t)i * sizeof(double);
-        o->role = q->role + 1; /* none: 0 */
-        o->fixed = q->fixed;
-    }
+    build_parameters(p, g);
     r->parameters = p->parameters;
     r->parameter_count = g->parameters.count;
     for (int i = 0; i < dag->fact_count; i++)
         if (dag_reads_fact(dag, g, i))
             p->reads[p->read_count++] = i;
-    arguments = answers = 0;
     for (int i = 0; i < g->order.count; i++) {
         const struct node *n = dag_node_at(dag, g, i);
         const struct tool_entry *tool = find_tool(dag->tools[n->tool].name);

@@ -174,6 +174,24 @@ static int has_lamp(const struct surfaces *s)
     return has;
 }
 
+/* More light than there can be, or none. */
+static void warn_of_power(const struct options *o, const struct surfaces *surfaces,
+                          const struct RadReport *r)
+{
+    if (r->emitted > 0 && r->absorbed > (1 + GAIN_TOLD) * r->emitted)
+        report_warning(o->scene, 0,
+                       "%.2g %% more is absorbed than emitted, which is error: use finer links "
+                       "(smaller thresholds, --set)",
+                       100 * (r->absorbed / r->emitted - 1));
+    if (!(r->emitted > 0) && !o->quiet)
+        report_warning(o->scene, 0, "%s",
+                       has_lamp(surfaces)
+                           ? "all that emits is shut in by the backs of faces, as in a solid: if "
+                             "these are turned the wrong way, turn them, or take --two-sided"
+                           : "no face emits, so all is dark; give a face a material that does: Ke "
+                             "above 0 in an .mtl file");
+}
+
 /* Solve by the oracle and write the outputs. Returns the exit status. */
 static int solve_by(const struct options *o, const struct open_scene *scene, RadOracle oracle)
 {
@@ -215,18 +233,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
         return status < 0 ? 1 : status;
     radGetReport(s.solution, &s.report);
     const int unfinished = solved_status(&s.report, o->scene);
-    if (s.report.emitted > 0 && s.report.absorbed > (1 + GAIN_TOLD) * s.report.emitted)
-        report_warning(o->scene, 0,
-                       "%.2g %% more is absorbed than emitted, which is error: use finer links "
-                       "(smaller thresholds, --set)",
-                       100 * (s.report.absorbed / s.report.emitted - 1));
-    if (!(s.report.emitted > 0) && !o->quiet)
-        report_warning(o->scene, 0, "%s",
-                       has_lamp(&surfaces)
-                           ? "all that emits is shut in by the backs of faces, as in a solid: if "
-                             "these are turned the wrong way, turn them, or take --two-sided"
-                           : "no face emits, so all is dark; give a face a material that does: Ke "
-                             "above 0 in an .mtl file");
+    warn_of_power(o, &surfaces, &s.report);
     if (!o->quiet) {
         measured_warn(&measured, o->scene);
         power_promise_warn(&promise, o->scene);
