@@ -54,86 +54,117 @@ OUTLINE void form_factor_range_sample(const struct element *r, const struct elem
     }
 }
 
+/* A part of the receiver. */
+struct form_factor_piece {
+    const double (*v)[3];
+    int n;
+    double c[3], radius; /* its middle, and how far corners are from it (m) */
+    double k_min, k_max; /* heights of its corners over the emitter (m) */
+};
+
+static inline struct form_factor_piece form_factor_piece_of(const struct form_factor_range *b,
+                                                            const double (*v)[3], int n)
+{
+    struct form_factor_piece p = {.v = v, .n = n, .k_min = INFINITY, .k_max = -INFINITY};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
+            p.c[k] += v[i][k] / n;
+    for (int i = 0; i < n; i++) {
+        double h = height3(v[i], b->s->centre, b->s->normal), w[3];
+        sub3(w, v[i], p.c);
+        double d = length3(w);
+        p.radius = d > p.radius ? d : p.radius;
+        p.k_min = h < p.k_min ? h : p.k_min;
+        p.k_max = h > p.k_max ? h : p.k_max;
+    }
+    return p;
+}
+
+/* What encloses F over a piece, where it is f in the middle: range[2]. Is it so wide that quarters
+ * may tell more? */
+static inline int form_factor_range_enclose(const struct form_factor_range *b,
+                                            const struct form_factor_piece *p, double f,
+                                            const double gradient[3], double range[2])
+{
+    double far = 0, rise[2] = {0, 0};
+    for (int i = 0; i < b->q.n; i++) {
+        double w[3];
+        sub3(w, b->q.v[i], p->c);
+        double d = length3(w) + p->radius;
+        far = d > far ? d : far;
+    }
+    double near =
+        polygon_distance(p->c, (const double(*)[3])b->q.v, b->q.n, b->s->normal) - p->radius;
+    near = p->k_min > near ? p->k_min : near;
+    near = b->lowest > near ? b->lowest : near;
+    double k_most = p->k_max > -p->k_min ? p->k_max : -p->k_min;
+    range[0] = p->k_min > 0 ? p->k_min * b->share / far / far / far / far : 0;
+    range[1] = b->cap;
+    if (!(near > 0))
+        return 1;
+    double most = b->share / near / near / near / near,
+           f_most = k_most * most < 1 ? k_most * most : 1;
+    if (p->k_max * most < range[1])
+        range[1] = p->k_max * most;
+    double steep = most / near;
+    if (p->k_min > 0 && f_most / p->k_min / near < steep)
+        steep = f_most / p->k_min / near;
+    double bend = 0.5 * p->radius * p->radius * (20 * f_most / near / near + 8 * b->slope * steep);
+    for (int i = 0; i < p->n; i++) {
+        double w[3];
+        sub3(w, p->v[i], p->c);
+        double step = dot3(w, gradient);
+        rise[0] = step < rise[0] ? step : rise[0];
+        rise[1] = step > rise[1] ? step : rise[1];
+    }
+    if (f + rise[0] - bend > range[0])
+        range[0] = f + rise[0] - bend;
+    if (f + rise[1] + bend < range[1])
+        range[1] = f + rise[1] + bend > 0 ? f + rise[1] + bend : 0;
+    return bend > 0.125 * (rise[1] - rise[0]);
+}
+
+/* Quarter i of a piece: corner i and the middles beside it; of a triangle the fourth is between the
+ * middles. */
+static inline void form_factor_piece_quarter(const struct form_factor_piece *p, int i,
+                                             double part[4][3])
+{
+    const int n = p->n;
+    for (int j = 0; j < n; j++) {
+        int from = n == 3 && i == 3 ? j : i, to = n == 3 && i == 3 ? (j + 1) % 3 : j;
+        int across = n == 4 && (i + 2) % 4 == j;
+        for (int k = 0; k < 3; k++)
+            part[j][k] = across ? p->c[k] : 0.5 * (p->v[from][k] + p->v[to][k]);
+    }
+}
+
 /* Widen b->bound by what encloses F over the part v[n] of the receiver. */
 static inline void form_factor_range_piece(struct form_factor_range *b, const double (*v)[3], int n,
                                            int depth)
 {
-    double c[3] = {0, 0, 0}, gradient[3], radius = 0, far = 0, k_min = INFINITY, k_max = -INFINITY;
-    double low = 0, high = b->cap, rise[2] = {0, 0};
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < 3; k++)
-            c[k] += v[i][k] / n;
-    for (int i = 0; i < n; i++) {
-        double h = height3(v[i], b->s->centre, b->s->normal), w[3];
-        sub3(w, v[i], c);
-        double d = length3(w);
-        radius = d > radius ? d : radius;
-        k_min = h < k_min ? h : k_min;
-        k_max = h > k_max ? h : k_max;
-    }
-    if (!(k_max > 0)) {
+    const struct form_factor_piece p = form_factor_piece_of(b, v, n);
+    if (!(p.k_max > 0)) {
         b->bound[0] = b->seen[0] = 0;
         return;
     }
-    for (int i = 0; i < b->q.n; i++) {
-        double w[3];
-        sub3(w, b->q.v[i], c);
-        double d = length3(w) + radius;
-        far = d > far ? d : far;
-    }
-    double f = point_factor_gradient(c, b->r->normal, &b->q, gradient);
-    double near = polygon_distance(c, (const double(*)[3])b->q.v, b->q.n, b->s->normal) - radius;
-    near = k_min > near ? k_min : near;
-    near = b->lowest > near ? b->lowest : near;
-    double k_most = k_max > -k_min ? k_max : -k_min;
-    if (k_min > 0)
-        low = k_min * b->share / far / far / far / far;
-    int open = !(near > 0);
-    if (near > 0) {
-        double most = b->share / near / near / near / near,
-               f_most = k_most * most < 1 ? k_most * most : 1;
-        if (k_max * most < high)
-            high = k_max * most;
-        double steep = most / near;
-        if (k_min > 0 && f_most / k_min / near < steep)
-            steep = f_most / k_min / near;
-        double bend = 0.5 * radius * radius * (20 * f_most / near / near + 8 * b->slope * steep);
-        for (int i = 0; i < n; i++) {
-            double w[3];
-            sub3(w, v[i], c);
-            double step = dot3(w, gradient);
-            rise[0] = step < rise[0] ? step : rise[0];
-            rise[1] = step > rise[1] ? step : rise[1];
-        }
-        if (f + rise[0] - bend > low)
-            low = f + rise[0] - bend;
-        if (f + rise[1] + bend < high)
-            high = f + rise[1] + bend > 0 ? f + rise[1] + bend : 0;
-        open = bend > 0.125 * (rise[1] - rise[0]);
-    }
-    f = f > 0 && height3(c, b->s->centre, b->s->normal) > 0 ? f : 0;
+    double gradient[3], range[2], f = point_factor_gradient(p.c, b->r->normal, &b->q, gradient);
+    int open = form_factor_range_enclose(b, &p, f, gradient, range);
+    f = f > 0 && height3(p.c, b->s->centre, b->s->normal) > 0 ? f : 0;
     b->seen[0] = f < b->seen[0] ? f : b->seen[0];
     b->seen[1] = f > b->seen[1] ? f : b->seen[1];
     if (open && depth > 0) {
         double slack = 0.0625 * (b->seen[1] - b->seen[0]) + (1 / 1024.0) * b->seen[1];
-        open = low < b->seen[0] - slack || high > b->seen[1] + slack;
-        open = open && (low < b->bound[0] || high > b->bound[1]);
+        open = range[0] < b->seen[0] - slack || range[1] > b->seen[1] + slack;
+        open = open && (range[0] < b->bound[0] || range[1] > b->bound[1]);
     }
     if (!open || depth == 0) {
-        b->bound[0] = low < b->bound[0] ? low : b->bound[0];
-        b->bound[1] = high > b->bound[1] ? high : b->bound[1];
+        b->bound[0] = range[0] < b->bound[0] ? range[0] : b->bound[0];
+        b->bound[1] = range[1] > b->bound[1] ? range[1] : b->bound[1];
         return;
     }
-    /* quarters: corner i and the middles beside it; of a triangle the fourth is between the
-     * middles */
     for (int i = 0; i < 4; i++) {
         double part[4][3];
-        for (int j = 0; j < n; j++) {
-            int from = n == 3 && i == 3 ? j : i, to = n == 3 && i == 3 ? (j + 1) % 3 : j;
-            int across = n == 4 && (i + 2) % 4 == j;
-            for (int k = 0; k < 3; k++)
-                part[j][k] = across ? c[k] : 0.5 * (v[from][k] + v[to][k]);
-        }
+        form_factor_piece_quarter(&p, i, part);
         form_factor_range_piece(b, (const double(*)[3])part, n, depth - 1);
     }
 }
