@@ -1,14 +1,20 @@
 /* cut_contacts.c - see cut_contacts.h.
  *
+ * Parts of one polygon lie side by side and reach into each other's boxes, all of them where they
+ * are the slivers of a round one; but they are parallel, and so have no contact. Normals are
+ * bounded as places are, so that a walk sees that at once.
+ *
  * Invariant: the contacts of a face depend on it and the faces that touch it, not on where these
  * stand in the tree.
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/cut_contacts.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "geometry.h"
+#include "hierarchy/bvh.h"
 #include "hierarchy/polygon.h"
 #include "kernel/constants.h"
 #include "util/array.h"
@@ -156,30 +162,70 @@ static int box_reaches(const struct cut_frame *c, const double low[3], const dou
     return fabs(height) <= half * (1 + 1e-9); /* rounding of the sums */
 }
 
-static int collect_below(struct contact_list *list, const struct cut_frame *c,
-                         const struct face *faces, const struct bvh *tree, uint32_t node)
+/* Are all normals in the box so near the frame's that planes with them have no line of contact?
+ * Half of CUT_PARALLEL leaves room for rounding. */
+static int box_is_parallel(const struct cut_frame *c, const struct bounds *normals)
 {
-    const struct bvh_node *n = &tree->nodes[node];
-    if (!box_reaches(c, tree->boxes[node].low, tree->boxes[node].high))
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        const double off =
+            fmax(fabs(normals->low[k] - c->normal[k]), fabs(normals->high[k] - c->normal[k]));
+        square += off * off;
+    }
+    return square <= 0.25 * CUT_PARALLEL * CUT_PARALLEL;
+}
+
+/* The tree with all that a walk down it looks at. */
+struct contact_tree {
+    const struct face *faces;
+    const struct bvh *tree;
+    const struct bounds *normals;
+};
+
+static int collect_below(struct contact_list *list, const struct cut_frame *c,
+                         const struct contact_tree *t, uint32_t node)
+{
+    const struct bvh_node *n = &t->tree->nodes[node];
+    const struct bounds *box = &t->tree->boxes[node];
+    if (!box_reaches(c, box->low, box->high) || box_is_parallel(c, &t->normals[node]))
         return 0;
     for (uint32_t i = 0; i < n->children; i++)
-        if (collect_below(list, c, faces, tree, n->child + i) < 0)
+        if (collect_below(list, c, t, n->child + i) < 0)
             return -1;
     if (n->children)
         return 0;
-    uint32_t face = tree->order[n->from];
-    if (face == c->index || faces[face].back)
+    uint32_t face = t->tree->order[n->from];
+    if (face == c->index || t->faces[face].back)
         return 0;
     if (array_reserve(&list->contacts, list->count + 1, &list->capacity, sizeof *list->contacts)
         < 0)
         return -1;
-    list->count += (size_t)find_contact(c, faces, face, &list->contacts[list->count]);
+    list->count += (size_t)find_contact(c, t->faces, face, &list->contacts[list->count]);
     return 0;
 }
 
+struct bounds *contacts_normals(const struct face *faces, const struct bvh *tree)
+{
+    struct bounds *normals = malloc(tree->count * sizeof *normals);
+    for (uint32_t i = normals ? tree->count : 0; i-- > 0;) { /* children stand behind parents */
+        const struct bvh_node *n = &tree->nodes[i];
+        struct bounds *own = &normals[i];
+        if (n->children)
+            bounds_empty(own);
+        else {
+            struct face f = faces[tree->order[n->from]];
+            polygon_normal(f.vertex, f.vertices, own->low);
+            memcpy(own->high, own->low, sizeof own->high);
+        }
+        for (uint32_t k = 0; k < n->children; k++)
+            bounds_add(own, &normals[n->child + k]);
+    }
+    return normals;
+}
+
 int contacts_collect(struct contact_list *list, const struct cut_frame *frame,
-                     const struct face *faces, const struct bvh *tree)
+                     const struct face *faces, const struct bvh *tree, const struct bounds *normals)
 {
     list->count = 0;
-    return collect_below(list, frame, faces, tree, 0);
+    return collect_below(list, frame, &(struct contact_tree){faces, tree, normals}, 0);
 }

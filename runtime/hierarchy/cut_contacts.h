@@ -40,9 +40,14 @@ double cut_distance(const struct cut_frame *frame, const double p[3], const doub
 int cut_parts_polygon(const struct cut_frame *frame, const double (*v)[3], uint32_t n,
                       const double across[3], double offset);
 
-/* Make the list hold the contacts of all faces in the tree with the frame's. Returns 0, or -1
- * when out of memory. */
+/* The box of the normals of all faces below each node, [tree->count], to be freed; NULL when out of
+ * memory. */
+struct bounds *contacts_normals(const struct face *faces, const struct bvh *tree);
+
+/* Make the list hold the contacts of all faces in the tree with the frame's; normals: of this tree.
+ * Returns 0, or -1 when out of memory. */
 int contacts_collect(struct contact_list *list, const struct cut_frame *frame,
-                     const struct face *faces, const struct bvh *tree);
+                     const struct face *faces, const struct bvh *tree,
+                     const struct bounds *normals);
 
 #endif

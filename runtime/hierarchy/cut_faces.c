@@ -56,6 +56,7 @@ struct cutting {
 struct cutter {
     const struct scene *scene;
     const struct bvh *tree;
+    const struct bounds *normals; /* of its nodes */
     struct cut_frame frame;       /* of the face at hand */
     struct contact_list contacts; /* its */
     struct line_list lines;
@@ -228,7 +229,7 @@ static int cut_face(struct cutter *c, uint32_t i)
     size_t before = c->out_count;
     if (!cut_frame_of(&c->frame, s->faces, i, scene_is_pair(s, i), s->precision))
         return 0;
-    if (contacts_collect(&c->contacts, &c->frame, s->faces, c->tree) < 0)
+    if (contacts_collect(&c->contacts, &c->frame, s->faces, c->tree, c->normals) < 0)
         return -1;
     if (c->contacts.count
         && (lines_of_contacts(&c->lines, &c->frame, &c->contacts) < 0 || cut_along_lines(c) < 0))
@@ -286,11 +287,16 @@ int scene_cut(struct scene *scene, const struct bvh *tree, int threads)
     if (!scene->face_count)
         return 0;
     struct cutter *cutters = calloc((size_t)threads, sizeof *cutters);
-    if (!cutters)
+    struct bounds *normals = contacts_normals(scene->faces, tree);
+    if (!cutters || !normals) {
+        free(cutters);
+        free(normals);
         return -1;
+    }
     for (int t = 0; t < threads; t++) {
         cutters[t].scene = scene;
         cutters[t].tree = tree;
+        cutters[t].normals = normals;
     }
     atomic_int failed = 0;
     const struct all_cutters all = {scene, cutters, &failed};
@@ -306,5 +312,6 @@ int scene_cut(struct scene *scene, const struct bvh *tree, int threads)
         free(cutters[t].cuttings);
     }
     free(cutters);
+    free(normals);
     return status ? -1 : 0;
 }

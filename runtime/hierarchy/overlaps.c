@@ -25,6 +25,8 @@
 #include "util/array.h"
 #include "util/thread_pool.h"
 
+static const uint32_t MIXED = UINT32_MAX; /* no polygon */
+
 /* A face and its plane. */
 struct sheet {
     struct face face;
@@ -46,11 +48,12 @@ struct loss {
 struct finder {
     const struct scene *scene;
     const struct bvh *tree;
-    double extent;       /* of the scene (m) */
-    double near;         /* at most, of flat faces (m) */
-    struct sheet sheet;  /* the face at hand */
-    struct bounds reach; /* its box, and what is near */
-    struct lid *lids;    /* [lid_count]: on the sheet */
+    const uint32_t *parts_of; /* [node]: parts_of_polygons */
+    double extent;            /* of the scene (m) */
+    double near;              /* at most, of flat faces (m) */
+    struct sheet sheet;       /* the face at hand */
+    struct bounds reach;      /* its box, and what is near */
+    struct lid *lids;         /* [lid_count]: on the sheet */
     size_t lid_count, lid_capacity;
     struct loss *losses; /* [loss_count] */
     size_t loss_count, loss_capacity;
@@ -149,6 +152,8 @@ static int gather(struct finder *f, uint32_t node)
     const struct bvh_node *n = &f->tree->nodes[node];
     const struct bounds *box = &f->tree->boxes[node];
     int result = 0;
+    if (f->parts_of[node] == f->sheet.face.input)
+        return 0;
     for (int k = 0; k < 3; k++)
         if (box->low[k] > f->reach.high[k] || box->high[k] < f->reach.low[k])
             return 0;
@@ -158,10 +163,8 @@ static int gather(struct finder *f, uint32_t node)
         return result;
     uint32_t i = f->tree->order[n->from];
     const struct face *face = &f->scene->faces[i];
-    if (i == f->sheet.index || (face->apart && face->input == f->sheet.face.input) || face->back
-        || !ranks_before(f->scene, i, f->sheet.index))
-        return 0;
-    if (!may_lie_in(f, face, box))
+    if (i == f->sheet.index || face->back || !ranks_before(f->scene, i, f->sheet.index)
+        || !may_lie_in(f, face, box))
         return 0;
     struct sheet over;
     sheet_of(&over, f->scene, i);
@@ -348,6 +351,22 @@ static int replace_all(struct scene *scene, const struct finder *finders, int th
     return result;
 }
 
+/* Below each node, [tree->count]: the polygon whose parts, which lie on none of its others, are all
+ * that is there, or MIXED. So of a polygon of many corners each part need not ask all others. To be
+ * freed; NULL when out of memory. */
+static uint32_t *parts_of_polygons(const struct scene *s, const struct bvh *tree)
+{
+    uint32_t *of = malloc(tree->count * sizeof *of);
+    for (uint32_t i = of ? tree->count : 0; i-- > 0;) { /* children stand behind parents */
+        const struct bvh_node *n = &tree->nodes[i];
+        const struct face *f = &s->faces[tree->order[n->from]];
+        of[i] = n->children ? of[n->child] : f->apart ? f->input : MIXED;
+        for (uint32_t k = 1; k < n->children; k++)
+            of[i] = of[n->child + k] == of[i] ? of[i] : MIXED;
+    }
+    return of;
+}
+
 struct all_finders {
     struct finder *finders;  /* [thread] */
     struct bare_parts *bare; /* [thread] */
@@ -367,7 +386,8 @@ long overlaps_take(struct scene *scene, const struct bvh *tree, int threads)
 {
     struct finder *finders = calloc((size_t)threads, sizeof *finders);
     struct bare_parts *bare = calloc((size_t)threads, sizeof *bare);
-    atomic_int failed = !finders || !bare;
+    uint32_t *parts_of = parts_of_polygons(scene, tree);
+    atomic_int failed = !finders || !bare || !parts_of;
     double extent = 0, largest = 0;
     for (int k = 0; k < 3; k++) {
         const struct bounds *box = &tree->boxes[0];
@@ -375,7 +395,8 @@ long overlaps_take(struct scene *scene, const struct bvh *tree, int threads)
         largest = fmax(largest, fmax(fabs(box->low[k]), fabs(box->high[k])));
     }
     for (int t = 0; t < threads && !failed; t++) {
-        finders[t] = (struct finder){.scene = scene, .tree = tree, .extent = extent};
+        finders[t] =
+            (struct finder){.scene = scene, .tree = tree, .parts_of = parts_of, .extent = extent};
         finders[t].near = fmax(RAY_OFFSET * extent, rounding(&finders[t], largest));
     }
     size_t count = 0;
@@ -395,5 +416,6 @@ long overlaps_take(struct scene *scene, const struct bvh *tree, int threads)
     }
     free(finders);
     free(bare);
+    free(parts_of);
     return failed ? -1 : (long)count;
 }
