@@ -199,21 +199,69 @@ static int enters(const double p[3], const double q[3])
     return to - from > DBL_EPSILON;
 }
 
-/* Is the triangle at place i an ear? */
+/* A triangle at the ring's border, and its box, wider by what rounding may do. */
+struct tip {
+    const double *corner[3];
+    double low[3], high[3];
+};
+
+static struct tip tip_at(const struct ring *r, uint32_t i)
+{
+    struct tip t = {.corner = {at(r, i + r->count - 1), at(r, i), at(r, i + 1)}};
+    for (int k = 0; k < 3; k++) {
+        const double a = t.corner[0][k], b = t.corner[1][k], c = t.corner[2][k];
+        t.low[k] = fmin(a, fmin(b, c)) - r->rounding;
+        t.high[k] = fmax(a, fmax(b, c)) + r->rounding;
+    }
+    return t;
+}
+
+/* The sides of the box that a point lies beyond, a bit each. */
+static unsigned beyond(const struct tip *t, const double p[3])
+{
+    unsigned sides = 0;
+    for (int k = 0; k < 3; k++)
+        sides |=
+            (unsigned)(p[k] < t->low[k]) << 2 * k | (unsigned)(p[k] > t->high[k]) << (2 * k + 1);
+    return sides;
+}
+
+/* On which sides of the triangle's lines a point lies. */
+static void sides_of(const struct ring *r, const struct tip *t, const double p[3], double sides[3])
+{
+    for (int k = 0; k < 3; k++)
+        sides[k] = side(r, t->corner[k], t->corner[(k + 1) % 3], p);
+}
+
+/* Is the triangle at place i an ear? From its end on to its begin no edge may enter, and no corner
+ * stand on the cut. Nearly all edges are beyond one side of its box: no more is asked of them. */
 static int ear(const struct ring *r, uint32_t i)
 {
-    const double *a = at(r, i + r->count - 1), *b = at(r, i), *c = at(r, i + 1);
-    double last[3] = {0, 0, 0};
-    if (side(r, a, b, c) <= 0)
+    const struct tip t = tip_at(r, i);
+    const double *last = t.corner[2];
+    double from[3] = {0, 0, 0}; /* of `last`, where known */
+    unsigned last_beyond = 0;
+    int known = 1;
+    if (side(r, t.corner[0], t.corner[1], t.corner[2]) <= 0)
         return 0;
-    /* From c on to a; nothing may enter, and no corner stand on the cut. */
-    for (uint32_t step = 2; step < r->count; step++) {
-        const double *p = at(r, i + step);
-        const double now[3] = {side(r, a, b, p), side(r, b, c, p), side(r, c, a, p)};
-        if ((now[0] > 0 && now[1] > 0 && now[2] >= 0) || enters(last, now))
-            return 0;
-        for (int k = 0; k < 3; k++)
-            last[k] = now[k];
+    for (uint32_t step = 2, place = (i + 2) % r->count; step < r->count; step++) {
+        const double *p = r->vertex[r->corner[place]];
+        const unsigned p_beyond = beyond(&t, p);
+        if (p_beyond & last_beyond)
+            known = 0;
+        else {
+            double to[3];
+            sides_of(r, &t, p, to);
+            if (!known)
+                sides_of(r, &t, last, from);
+            if ((to[0] > 0 && to[1] > 0 && to[2] >= 0) || enters(from, to))
+                return 0;
+            memcpy(from, to, sizeof from);
+            known = 1;
+        }
+        last = p;
+        last_beyond = p_beyond;
+        place = place + 1 < r->count ? place + 1 : 0;
     }
     return 1;
 }
