@@ -17,7 +17,6 @@ void dag_resolve_twice(struct dag *dag, const char *what, const char *name, stru
                        struct where first);
 /* An error where the type has any unit. */
 void dag_refuse_any_unit(struct dag *dag, int type, struct where where);
-int dag_resolve_type(struct dag *dag, const char *name, struct where where);
 /* may they have roles? */
 void dag_resolve_parameters(struct dag *dag, struct span span, int roles);
 

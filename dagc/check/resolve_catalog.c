@@ -23,7 +23,7 @@ void dag_resolve_twice(struct dag *dag, const char *what, const char *name, stru
                               (dag)->list[first].where); \
     }
 
-int dag_resolve_type(struct dag *dag, const char *name, struct where where)
+static int resolve_type(struct dag *dag, const char *name, struct where where)
 {
     if (name == NULL)
         return -1;
@@ -73,7 +73,7 @@ void dag_resolve_parameters(struct dag *dag, struct span span, int roles)
                               dag->parameters[first].where);
         if (strcmp(parameter->name, "inf") == 0)
             dag_error(dag, parameter->where, "'inf' is a number and cannot name a parameter");
-        parameter->type = dag_resolve_type(dag, parameter->type_name, parameter->type_where);
+        parameter->type = resolve_type(dag, parameter->type_name, parameter->type_where);
         if (parameter->type < 0)
             parameter->bad = 1;
         else if (dag->types[parameter->type].length != 1) {
@@ -96,7 +96,7 @@ void dag_refuse_any_unit(struct dag *dag, int type, struct where where)
 
 static void resolve_term(struct dag *dag, struct term *term)
 {
-    term->type = dag_resolve_type(dag, term->type_name, term->type_where);
+    term->type = resolve_type(dag, term->type_name, term->type_where);
     dag_refuse_any_unit(dag, term->type, term->type_where);
     if (term->levels.count >= ANSWERS_MAX) {
         dag_error(dag, term->where, "a term has at most %d levels", ANSWERS_MAX - 1);
@@ -164,7 +164,7 @@ void dag_resolve_answers(struct dag *dag, struct span span, const char *what)
 
 static int scalar_type(struct dag *dag, const char *name, struct where where)
 {
-    int type = dag_resolve_type(dag, name, where);
+    int type = resolve_type(dag, name, where);
     dag_refuse_any_unit(dag, type, where);
     if (type < 0 || dag->types[type].length == 1)
         return type;

@@ -61,7 +61,5 @@ void prove_states(struct proof *proof, enum prove_flavour flavour, int all_start
                   struct prove_extent *extent);
 
 const struct node *prove_node_at(const struct proof *proof, int place);
-/* by a fixed seed: 0 .. count - 1 */
-int prove_pick(struct proof *proof, int count);
 
 #endif

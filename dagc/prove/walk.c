@@ -19,7 +19,8 @@ const struct node *prove_node_at(const struct proof *proof, int place)
     return dag_node_at(proof->dag, proof->oracle, place);
 }
 
-int prove_pick(struct proof *proof, int count)
+/* By a fixed seed: 0 .. count - 1. */
+static int pick(struct proof *proof, int count)
 {
     proof->random = proof->random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
     return (int)((proof->random >> 33) % (uint64_t)count);
@@ -44,7 +45,7 @@ static double within(double low, double high, double share, int whole)
 
 static double choose(struct proof *proof, int way, double low, double high, int whole, double apart)
 {
-    double share = way == 1 ? 0.5 : (1 + prove_pick(proof, 1000)) / 1001.0;
+    double share = way == 1 ? 0.5 : (1 + pick(proof, 1000)) / 1001.0;
     double end = way == PROVE_LOW || (way == PROVE_ENDS && share < 0.5) ? low : high;
     if (way == 0)
         return apart;

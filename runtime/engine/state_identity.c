@@ -6,6 +6,12 @@
 
 #include "engine/state_stream.h"
 
+/* The hash of a text behind another hash; NULL: the hash as it is. */
+static uint64_t mix_text(uint64_t hash, const char *text)
+{
+    return text ? state_mix(hash + 1, text, strlen(text)) : hash;
+}
+
 uint64_t state_identity_faces(const struct hierarchy *h)
 {
     uint64_t hash = state_mix(h->face_count, &h->built, sizeof h->built);
@@ -27,21 +33,16 @@ uint64_t state_identity_scene(const struct problem *p, const struct hierarchy *h
 
 uint64_t state_identity_version(void)
 {
-    return state_identity_text(RUNTIME_ABI, RADIOSITY_VERSION);
-}
-
-uint64_t state_identity_text(uint64_t hash, const char *text)
-{
-    return text ? state_mix(hash + 1, text, strlen(text)) : hash;
+    return mix_text(RUNTIME_ABI, RADIOSITY_VERSION);
 }
 
 uint64_t state_identity_oracle(const struct refiner *refiner)
 {
-    uint64_t hash = state_identity_text(RUNTIME_ABI, refiner->oracle);
-    hash = state_identity_text(hash, refiner->fingerprint);
+    uint64_t hash = mix_text(RUNTIME_ABI, refiner->oracle);
+    hash = mix_text(hash, refiner->fingerprint);
     for (int i = 0; i < refiner->parameter_count; i++) {
         const double value = refiner_get(refiner, i);
-        hash = state_identity_text(hash, refiner->parameters[i].name);
+        hash = mix_text(hash, refiner->parameters[i].name);
         hash = state_mix(hash, &value, sizeof value);
     }
     return hash;

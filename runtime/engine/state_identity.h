@@ -17,7 +17,4 @@ uint64_t state_identity_version(void);
 /* Of an oracle and the values of its parameters. */
 uint64_t state_identity_oracle(const struct refiner *refiner);
 
-/* The hash of a text behind another hash; NULL: the hash as it is. */
-uint64_t state_identity_text(uint64_t hash, const char *text);
-
 #endif

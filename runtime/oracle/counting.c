@@ -325,8 +325,9 @@ static void count_lists(const struct program *p, struct tally *t)
     }
 }
 
-void program_walk_block(const void *state, struct discussion *block, int count,
-                        enum decision *decisions)
+/* The walk of many pairs, which also counts how many of WAVE_PAIRS of them came by each node. */
+static void walk_block(const void *state, struct discussion *block, int count,
+                       enum decision *decisions)
 {
     const struct program *p = state;
     for (int from = 0; from < count; from += WAVE_PAIRS) {
@@ -371,7 +372,7 @@ int refiner_count(struct refiner *r)
     p->counting = atomic_fetch_add(&countings, 1) + 1;
     atomic_store(&p->lost, 0);
     r->refine = program_walk_counted;
-    r->wave = program_walk_block;
+    r->wave = walk_block;
     r->state = p;
     return 0;
 }

@@ -95,8 +95,5 @@ enum decision program_walk(const void *state, struct discussion *d);
 
 /* counting.c. The walk that counts. `state` is the program. */
 enum decision program_walk_counted(const void *state, struct discussion *d);
-/* The same of many, and which of WAVE_PAIRS of them came by each node. */
-void program_walk_block(const void *state, struct discussion *block, int count,
-                        enum decision *decisions);
 
 #endif
