@@ -73,6 +73,19 @@ static int stays_out(const struct prism *p, const struct element *face, double o
     return 0;
 }
 
+/* Does a box? Then all faces in it do: what they may reach in is left for rounding. */
+static int box_stays_out(const struct prism *p, const double low[3], const double high[3])
+{
+    for (int i = 0; i < p->planes; i++) {
+        double deepest = 0;
+        for (int k = 0; k < 3; k++)
+            deepest += p->normal[i][k] * ((p->normal[i][k] > 0 ? low : high)[k] - p->on[i][k]);
+        if (deepest >= 0)
+            return 1;
+    }
+    return 0;
+}
+
 static int reaches_in(const struct hierarchy *h, const struct prism *p, double off, uint32_t index)
 {
     const struct element *e = &h->elements[index];
@@ -81,6 +94,8 @@ static int reaches_in(const struct hierarchy *h, const struct prism *p, double o
     for (int k = 0; k < 3 && !e->vertices; k++)
         if (e->vertex[0][k] > p->high[k] || e->vertex[1][k] < p->low[k])
             return 0;
+    if (!e->vertices && box_stays_out(p, e->vertex[0], e->vertex[1]))
+        return 0;
     for (uint32_t c = 0; c < e->children; c++)
         if (reaches_in(h, p, off, e->child + c))
             return 1;
