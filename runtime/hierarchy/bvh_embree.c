@@ -1,6 +1,5 @@
 /* bvh_embree.c - clusters by Embree's builder in high quality: binned surface-area heuristic with
- * spatial splits
- * [Stich, Friedrich and Dietrich 2009].
+ * spatial splits [Stich, Friedrich and Dietrich 2009].
  *
  * A spatial split puts parts of one face on both sides. A face belongs to one cluster, so it stays
  * where the part nearest to its centre went, and nodes that lose all their faces go. Embree calls

@@ -3,19 +3,19 @@
  * in [0, 1].
  *
  * sampled  over the receiver's corners and centre. The corners are taken CORNER_INSET of the way to
- * the centre: where the
- *          elements touch, F has no value at the corner itself. Fails: an extremum between them is
- *          not seen.
+ *          the centre: where the elements touch, F has no value at the corner itself. Fails: an
+ *          extremum between them is not seen.
  * bounded  no F(x) lies outside. With k(x) the height of x over the emitter's plane, h(y) that of y
- * over the
- *          receiver's, F(x) = k(x)/pi int h(y) / |x-y|^4 dy: only k and the distance depend on x.
- *          So, for distances in [d, D], k_min Q/D^4 <= F <= k_max Q/d^4 with Q = int h / pi; F is
- *          at most what the emitter's whole half plane would give, (1 - n_r.n_s)/2; and with the
- *          gradient g at a centre c, R the radius around it, |F(x) - F(c) - g.(x-c)| <= 1/2 R^2 (20
- *          F_max/d^2 + 8 kappa min(F_max/(k_min d), Q/d^5)), kappa = |grad k| along the receiver.
- *          Quarters of the receiver, and theirs, are bounded by themselves where that could matter.
- *          Fails: not tight where the two are nearer than an eighth of the receiver (the upper end
- *          is then the half plane's, which is right where they touch). [D: derived here]
+ *          over the receiver's, F(x) = k(x)/pi int h(y) / |x-y|^4 dy: only k and the distance
+ *          depend on x. So, for distances in [d, D], k_min Q/D^4 <= F <= k_max Q/d^4 with
+ *          Q = int h / pi; F is at most what the emitter's whole half plane would give,
+ *          (1 - n_r.n_s)/2; and with the gradient g at a centre c, R the radius around it,
+ *          |F(x) - F(c) - g.(x-c)|
+ *              <= 1/2 R^2 (20 F_max/d^2 + 8 kappa min(F_max/(k_min d), Q/d^5)),
+ *          kappa = |grad k| along the receiver. Quarters of the receiver, and theirs, are bounded
+ *          by themselves where that could matter. Fails: not tight where the two are nearer than an
+ *          eighth of the receiver (the upper end is then the half plane's, which is right where
+ *          they touch). [D: derived here]
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_FORM_FACTOR_RANGE_H
 #define TERM_FORM_FACTOR_RANGE_H
