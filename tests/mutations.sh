@@ -28,6 +28,11 @@ groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->re
 leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
 walls that stand in their own way | runtime/visibility/outer_walls.c | s/if (low < w->behind)/if (low > w->behind)/ | runtime/check_free_space
 what lies flat on a wall | runtime/visibility/outer_walls.c | s/return low < w->near \&\&/return 0 * low < 0 \&\&/ | runtime/check_free_space
+ears forget the corner before | runtime/hierarchy/polygon.c | s/sides_of(r, \&t, last, from);/;/ | runtime/check_triangles
+ears know but half of a box | runtime/hierarchy/polygon.c | s/p_beyond \& last_beyond/p_beyond + last_beyond/ | runtime/check_triangles
+all planes are parallel | runtime/hierarchy/cut_contacts.c | s/square <= 0.25/square <= 1e5/ | runtime/check_cut
+all faces are parts of one polygon | runtime/hierarchy/overlaps.c | s/of.n->child + k. == of.i. ? of.i. : MIXED/f->input/ | runtime/check_overlaps
+boxes stay out | runtime/visibility/standing.c | s/if (deepest >= 0)/if (deepest >= -1)/ | runtime/check_contact
 shafts of empty rooms | runtime/visibility/rays.c | s/return free_space_is_all(&rays->free)$/return 0/ | runtime/check_bends
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
 groups pay nothing | runtime/engine/row_sums.c | s/if (rows.sum > most \* rows.area)/if (0 \&\& rows.sum > most * rows.area)/ | runtime/check_transport
