@@ -5,7 +5,11 @@
  * look for the light. In a room, where light is reflected many times, it is the other way round.
  * Noise^2 times rays is what each costs: both are measured, particles by the first look that
  * mending takes anyway, paths by a block for each face. Paths know nothing of places within a face,
- * so they have to be much cheaper. They go by a sequence, whose noise falls faster than with the
+ * so they have to be much cheaper. A look is an eighth of what particles are to take, even where
+ * these would take more rays than there are: of a meadow, where most polygons are met by none of
+ * them, all rays tell next to nothing. But what is left has to be enough for paths to mend by.
+ *
+ * They go by a sequence, whose noise falls faster than with the
  * root of the number: where the first block says that they are cheaper, but not by how much, and
  * more are a small part of what is to come, there is a second look.
  *
@@ -24,6 +28,10 @@
 /* of a path, about, before any is traced; and times the paths there are, so many at the most before
  * it is asked again how many are wanted */
 enum { RAYS_OF_PATH = 4, GROWTH = 4 };
+/* of all the rays there may be, one part in so many is for a first look at the most. Chosen: paths
+ * have as many left as they have looked by; of two-sided blades of grass, cut where they cross,
+ * looks take a sixth to a quarter */
+enum { PART = 2 };
 
 /* Do both see the same light, and any? */
 static int agree(const struct solve *s, const struct tally *particles, const struct tally *paths)
@@ -55,7 +63,7 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
         return -1;
     const double cost = alone * (double)tally->rays;
     const double look = paths_of_look(t);
-    if (!(fmin(cost, most) > PATHS_LOOK * RAYS_OF_PATH * look))
+    if (!(fmin(cost / PATHS_LOOK, most / PART) > RAYS_OF_PATH * look))
         return 0;
     if (path_tally_open(y, t, path_mending_stream(0)) < 0)
         return -1;

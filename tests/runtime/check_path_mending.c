@@ -260,6 +260,24 @@ START_TEST(test_few_particles)
 }
 END_TEST
 
+/* Particles would need a thousand times the rays that there may be. These are a fifth of what is
+ * worth a look where particles could do; where they cannot a look may be half of them, no more. */
+START_TEST(test_few_rays)
+{
+    static const uint64_t most[] = {4000, 2000};
+    struct mending_goal wanted = goal;
+    struct looked l;
+    struct path_tally y = {.tally = {0}};
+    look(&l, 20000);
+    wanted.most = most[_i];
+    ck_assert_int_eq(path_mending_trace(&y, &l.solve, &l.tracer, &l.particles, &wanted, NULL),
+                     _i == 0);
+    ck_assert_int_eq(y.tally.rays > 0, _i == 0);
+    path_tally_close(&y);
+    looked_close(&l);
+}
+END_TEST
+
 /* Is the L1 error of light that is off by `off` of itself within what paths say of it? */
 static int covered(const struct solve *s, const double *truth, const struct tally *y, double off,
                    struct chance *c)
@@ -367,6 +385,7 @@ int main(void)
     tcase_add_test(c, test_room);
     tcase_add_test(c, test_other_light);
     tcase_add_test(c, test_few_particles);
+    tcase_add_loop_test(c, test_few_rays, 0, 2);
     tcase_add_test(c, test_coverage);
     tcase_add_test(c, test_same);
     suite_add_tcase(suite, c);
