@@ -24,8 +24,15 @@ struct cell {
     struct element e;
     const struct linear_side *side;
     struct nodes nodes[2]; /* [order - 1]; count 0: not yet */
-    struct cell *quarter;  /* [4]; NULL: not yet */
+    struct cell *part;     /* [parts]; NULL: not yet */
+    int parts;             /* 4 quarters, or 2 halves of what is long */
 };
+
+/* radius^2 over area. Above it a cell is halved: rectangles from 1 : 7.9 on, and triangles whose
+ * height is 4.5 times their base. It is .5 of a square and at most 1.7 of triangles of 30 degrees
+ * and more. Chosen: squares beside a strip have so few times as many cells beside each other then
+ */
+static const double LONG = 2;
 
 enum { CELLS = 64 }; /* that are kept, of both elements; of cells beyond them all is made anew */
 
@@ -192,28 +199,64 @@ static void add_touching(struct integral *c, struct cell *r, struct cell *s)
             c->sum[a][b] += whole * (of_r[a] / of_r[0]) * (of_s[b] / of_s[0]);
 }
 
+/* Quarters of what is long are as long for their width, and as small as is wanted only once there
+ * are as many side by side as one behind the other: of a strip of 1 m by 1 mm, beside squares of
+ * 2 mm, 250,000. Halves are not so long. */
+static int is_long(const struct element *e)
+{
+    return e->radius * e->radius > LONG * e->area;
+}
+
 static void begin_cell(struct cell *c, const struct linear_side *side)
 {
     c->side = side;
     c->nodes[0].count = c->nodes[1].count = 0;
-    c->quarter = NULL;
+    c->part = NULL;
+    c->parts = is_long(&c->e) ? 2 : 4;
+}
+
+/* Half of e, 0 or 1, cut across its longest edge, of a quad across the longer two. */
+static void half_of(const struct element *e, int i, struct element *half)
+{
+    const int n = e->vertices;
+    double edge[4] = {0, 0, 0, 0};
+    for (int j = 0; j < n; j++) {
+        double along[3];
+        sub3(along, e->vertex[(j + 1) % n], e->vertex[j]);
+        edge[n == 4 ? j % 2 : j] += length3(along);
+    }
+    const int a = edge[2] > fmax(edge[0], edge[1]) ? 2 : edge[1] > edge[0], b = (a + 1) % n,
+              c = (a + 2) % n, d = n == 4 ? (a + 3) % n : c;
+    *half = *e;
+    for (int k = 0; k < 3; k++) {
+        const double middle = 0.5 * (e->vertex[a][k] + e->vertex[b][k]),
+                     across = 0.5 * (e->vertex[c][k] + e->vertex[d][k]);
+        half->vertex[i == 0 ? b : a][k] = middle;
+        if (n == 4)
+            half->vertex[i == 0 ? c : d][k] = across;
+    }
+    surface_measure(half);
+    memcpy(half->normal, e->normal, sizeof half->normal);
 }
 
 /* Kept, where there is room; else in `own`. */
-static struct cell *quarters_of(struct integral *c, struct cell *whole, struct cell own[4])
+static struct cell *parts_of(struct integral *c, struct cell *whole, struct cell own[4])
 {
-    if (whole->quarter)
-        return whole->quarter;
-    struct cell *quarter = own;
-    if (c->cells + 4 <= CELLS) {
-        whole->quarter = quarter = &c->cell[c->cells];
-        c->cells += 4;
+    if (whole->part)
+        return whole->part;
+    struct cell *part = own;
+    if (c->cells + whole->parts <= CELLS) {
+        whole->part = part = &c->cell[c->cells];
+        c->cells += whole->parts;
     }
-    for (int i = 0; i < 4; i++) {
-        surface_quarter(&whole->e, i, &quarter[i].e);
-        begin_cell(&quarter[i], whole->side);
+    for (int i = 0; i < whole->parts; i++) {
+        if (whole->parts == 2)
+            half_of(&whole->e, i, &part[i].e);
+        else
+            surface_quarter(&whole->e, i, &part[i].e);
+        begin_cell(&part[i], whole->side);
     }
-    return quarter;
+    return part;
 }
 
 static void add_cells(struct integral *c, struct cell *r, struct cell *s)
@@ -230,9 +273,9 @@ static void add_cells(struct integral *c, struct cell *r, struct cell *s)
         add_touching(c, r, s);
         return;
     }
-    struct cell *quarter = quarters_of(c, larger, own);
-    for (int i = 0; i < 4; i++)
-        add_cells(c, larger == r ? &quarter[i] : r, larger == r ? s : &quarter[i]);
+    struct cell *part = parts_of(c, larger, own);
+    for (int i = 0; i < larger->parts; i++)
+        add_cells(c, larger == r ? &part[i] : r, larger == r ? s : &part[i]);
 }
 
 /* The part of a side in front of the other's plane, as one or two cells. Returns how many. */

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include "engine/linear_coupling.h"
 #include "engine/linear_solution.h"
 #include "engine/linear_transport.h"
@@ -162,6 +163,10 @@ static const struct pair_case cases[] = {
      {4, 4},
      {{{0, 0, 0}, {1, 0, 0}, {0.7, 0.8, 0}, {0.1, 1, 0}},
       {{0, 0, 0.7}, {0.1, 1.3, 0.7}, {0.9, 0.8, 0.7}, {1, 0, 0.7}}}},
+    {"a strip, one edge", 1, {4, 4}, {SQUARE, {{0, -1, 0}, {0, 7, 0}, {0, 7, 0.5}, {0, -1, 0.5}}}},
+    {"a strip", 0, {4, 4}, {SQUARE, {{0, -1, 1}, {0, 7, 1}, {0.5, 7, 1}, {0.5, -1, 1}}}},
+    {"a needle", 0, {4, 3}, {SQUARE, {{0.2, -1, 1}, {0.5, 4, 1}, {0.8, -1, 1}}}},
+    {"a needle, its base behind", 0, {4, 3}, {SQUARE, {{0.5, 4, 1}, {0.8, -1, 1}, {0.2, -1, 1}}}},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
@@ -238,6 +243,34 @@ START_TEST(test_coupling)
     ck_assert_double_le(off[0], pair->touching ? 7e-3 : 2e-3);
     ck_assert_double_le(off[1], pair->touching ? 3e-2 : 2e-3);
     ck_assert_double_le(off[2], pair->touching ? 1.5e-1 : 4e-3);
+}
+END_TEST
+
+/* CPU seconds of so many couplings of a pair. */
+static double seconds_of(const struct pair_case *pair, int times)
+{
+    struct pair_of p;
+    double c[3][3];
+    make_pair(&p, pair);
+    const clock_t start = clock();
+    for (int i = 0; i < times; i++)
+        linear_coupling_at(1, c, p.r, p.s);
+    return (double)(clock() - start) / CLOCKS_PER_SEC;
+}
+
+/* A square of 2 mm beside a strip of 1 m by 1 mm takes several times as long as beside another
+ * square, with which it has 16 cells' pairs; by quarters of the strip it took 500 times as long. */
+START_TEST(test_strip)
+{
+    static const struct pair_case pair[2] = {
+        {"squares", 1, {4, 4}, {SQUARE, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}}},
+        {"a strip",
+         1,
+         {4, 4},
+         {SQUARE, {{0, -250, 0}, {0, 250, 0}, {0, 250, 0.5}, {0, -250, 0.5}}}}};
+    const double square = seconds_of(&pair[0], 5000), strip = seconds_of(&pair[1], 50) * 100;
+    printf("%s: %.3g times as long as %s\n", pair[1].name, strip / square, pair[0].name);
+    ck_assert_double_lt(strip, 60 * square);
 }
 END_TEST
 
@@ -719,6 +752,7 @@ int main(void)
           *solutions = tcase_create("solutions");
     tcase_add_loop_test(bases, test_basis, 0, SHAPES);
     tcase_add_loop_test(bases, test_two_scale, 0, SHAPES);
+    tcase_add_test(couplings, test_strip);
     tcase_add_loop_test(couplings, test_coupling, 0, CASES);
     tcase_add_loop_test(couplings, test_limit, 0, CASES);
     tcase_add_test(solutions, test_order);
