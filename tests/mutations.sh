@@ -106,7 +106,7 @@ what is known is cast again | runtime/tools/cluster_visibility.wave.h | s/if (d-
 moved off twice as far | runtime/kernel/cluster_batch.h | s/x->at\[k\]\[at\] + off \*/x->at[k][at] + 2 * off */ | runtime/check_cluster_walk
 columns out of order | runtime/kernel/rows.h | s/column\[1\] = __builtin_shufflevector(f, h, 0, 1, 4, 5)/column[1] = __builtin_shufflevector(f, h, 0, 1, 5, 4)/ | runtime/check_cluster_walk
 rules without their last points | runtime/engine/linear_coupling.c | s/at->count; i += FEW/at->count - FEW + 1; i += FEW/ | runtime/check_linear
-quarters of strips | runtime/engine/linear_coupling.c | s/is_long(.c->e) ? 2 : 4/4/ | runtime/check_linear
+quarters of strips | runtime/engine/linear_coupling.c | s/is_long(.c->e) ? 2 : 4/is_long(\&c->e) ? 4 : 4/ | runtime/check_linear
 halves cut along | runtime/engine/linear_coupling.c | s/edge\[1\] > edge\[0\], b = /edge[1] < edge[0], b = / | runtime/check_linear
 the emitter's slopes mixed | runtime/engine/linear_coupling.c | s/sum_2\[k\] += sent \* phi_2/sum_2[k] += sent * (phi_2 + 0.1 * phi_1)/ | runtime/check_linear
 seen from the other's front | runtime/engine/linear_coupling.c | s/(at, r->e.normal/(at, s->e.normal/ | runtime/check_linear
