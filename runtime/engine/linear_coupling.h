@@ -4,11 +4,11 @@
  * k Lambert's kernel, nothing in between. Then H_a += V sum_b C_ab B_b.
  *
  * Quadrature that fits the distance. Of cells apart, the farther the fewer points each (2 x 2 or 3
- * x 3 in quads, 3 or 6 in triangles); of cells near each other the larger is quartered, and so on
- * down to LINEAR_CELL of the smaller element. Cells that still touch take the exact factor from
- * points to polygons, both ways round, and as the kernel between them what these two say as a
- * product. C_00 is not computed but the link's own F, to which the others are scaled, so that
- * constants are what they are without slopes.
+ * x 3 in quads, 3 or 6 in triangles); of cells near each other the larger is quartered, or halved
+ * across where it is long, and so on down to LINEAR_CELL of the smaller element. Cells that still
+ * touch take the exact factor from points to polygons, both ways round, and as the kernel between
+ * them what these two say as a product. C_00 is not computed but the link's own F, to which the
+ * others are scaled, so that constants are what they are without slopes.
  *
  * k >= 0, so light is never negative; its projection K(x, y) = sum C_ab phi_a(x) phi_b(y) may be,
  * where elements touch or differ much in size. To limit a coupling is to make K >= 0 with the same
