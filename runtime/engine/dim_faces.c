@@ -27,6 +27,7 @@
  *
  * [derived here]
  * SPDX-License-Identifier: MIT */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include "engine/dim_faces.h"
@@ -211,7 +212,8 @@ static double near_power(double x)
 }
 
 /* What split particles are to carry: as much as there is light over the mean irradiance, and no
- * more than those that are not split. Of dim polygons, what is known by now. */
+ * more than those that are not split; how little at the least is tally_split's to know. Of dim
+ * polygons, what is known by now. */
 static void set_windows(const struct dim_faces *d, float *window)
 {
     const struct hierarchy *h = d->tracer->hierarchy;
@@ -226,7 +228,7 @@ static void set_windows(const struct dim_faces *d, float *window)
         }
         if (p)
             here = before > 0 ? here * after / before : after;
-        window[e] = (float)near_power(fmin(fmax(here / mean, DIM_LEAST), 1));
+        window[e] = (float)near_power(fmin(fmax(here / mean, (double)FLT_MIN), 1));
     }
 }
 

@@ -5,9 +5,16 @@
  * (particles.h) have no bias: the solution tells their windows only. They cost more where light is
  * merely weak, for they come from the emitters all the way, so they come last; but they serve all
  * polygons at once. How much they do not know, replicates say.
+ *
+ * A room that no light reaches but that of its own lamp, beside one that is a billion times as
+ * strong, was known to a sixth of its light: particles of its lamp were as few as what they could
+ * carry at the least, a millionth, and links, which were right to 3 %, made room for them. So that
+ * least is what holds for light that comes from elsewhere, and a lamp is asked for as many as any
+ * other, however weak it is.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/dim_split.h"
+#include "kernel/constants.h"
 
 enum { START = 64 }; /* particles of each replicate, which tell how many rays one takes */
 
@@ -53,7 +60,7 @@ int dim_split_trace(struct dim_faces *d, const float *window, double rays,
     double more = START;
     int times = 0; /* in succession that all were sure */
     int failed = tally_open(&split, d->tracer, DIM_STREAM, 1) < 0
-                 || tally_split(&split, d->tracer, window) < 0;
+                 || tally_split(&split, d->tracer, window, DIM_LEAST, rays) < 0;
     while (!failed && more >= 1) {
         failed = tally_trace(&split, d->tracer, (uint64_t)more, d->watch ? &watch : NULL) < 0;
         note(d, &split);

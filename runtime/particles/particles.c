@@ -16,17 +16,20 @@ enum {
     LANDINGS = 64 /* that are counted at once */
 };
 
-/* Counts of one particle that may be split: room for 2^31 of them, and for parts of a millionth. */
-#define ONE_SPLIT 0x1p32
+/* Counts of all that lands, at the most: half of what there is room for, as rays are about so many.
+ * Of a million rays each counts parts of 1e-12: a lamp that has so little of the power may be all
+ * the light of a closed room. */
+#define ALL_SPLIT 0x1p62
 
 /* From an emitter one carries what the window wants of those that leave its place, but no less than
  * the emitter's share of all power: what shines into the dark is not asked for more than others. */
-int tally_split(struct tally *tally, const struct tracer *t, const float *window)
+int tally_split(struct tally *tally, const struct tracer *t, const float *window, double least,
+                double rays)
 {
     const struct lights *l = &t->lights;
     double all = 0;
     tally->window = window;
-    tally->one = ONE_SPLIT;
+    tally->least = least;
     tally->until = malloc((l->count + 1) * sizeof *tally->until);
     tally->carried = malloc((l->count + 1) * sizeof *tally->carried);
     if (!tally->until || !tally->carried)
@@ -39,6 +42,7 @@ int tally_split(struct tally *tally, const struct tracer *t, const float *window
     }
     for (uint32_t i = 0; i < l->count; i++)
         tally->carried[i] *= all;
+    tally->one = ALL_SPLIT / (fmax(rays, 1) * fmax(all, 1)); /* none carries more than `all` */
     return 0;
 }
 
@@ -108,7 +112,8 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
         for (uint32_t k = 0; k < tally->bands; k++) {
             w[k] = (int64_t)(l->share[k] * tally->one + 0.5);
             batch->first[k] += w[k];
-            batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
+            if (!tally->window) /* of split ones replicates tell the noise */
+                batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
         }
         if (here[i])
             tally_count(tally, batch->replicate, place[i], leaf[i], w);
@@ -135,6 +140,7 @@ struct flight {
     uint32_t face;
     int copies; /* how many are to leave */
     double p[3], share[3];
+    double least; /* what a window wants at the least of what its emitter has sent */
 };
 
 /* The emitter that u[0] in [0, 1) stands for, the point on it, and what leaves there. */
@@ -150,6 +156,8 @@ static struct flight emit(const struct tally *tally, const struct tracer *t, con
         whole += exitance[k];
     for (uint32_t k = 0; k < t->bands; k++)
         f.share[k] = exitance[k] / whole * (tally->window ? tally->carried[light] : 1);
+    if (tally->window)
+        f.least = fmin(tally->least, tally->carried[light]);
     tracer_point(t, f.face, u[1], u[2], f.p);
     return f;
 }
@@ -169,7 +177,7 @@ static void reflect(const struct tally *tally, const struct tracer *t, uint32_t 
         left = fmax(left, f->share[k]);
     }
     if (tally->window) {
-        double wanted = (double)tally->window[leaf];
+        double wanted = fmax((double)tally->window[leaf], f->least);
         if (all > SPLIT_WINDOW * wanted || all * SPLIT_WINDOW < wanted)
             strongest = fmax(strongest * wanted / all, left / most);
     }

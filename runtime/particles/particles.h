@@ -64,6 +64,7 @@ struct tally {
     uint32_t *leaf_place; /* [elements]: place of the face; NULL likewise, and without leaves */
     double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
+    double least;            /* what it wants at the least */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
     int alone;               /* 1: one thread counts, at a time */
     int by_paths;            /* 1: paths stand for particles (path_tally.h) */
@@ -80,10 +81,13 @@ void tally_close(struct tally *tally);
 void tally_forget_leaves(struct tally *tally);
 
 /* Before any is traced: split particles. window[leaf]: what one should carry that leaves there, a
- * share of the power of all over their number, > 0; borrowed. Emitters are chosen by it, too. The
- * tally counts on leaves, and tally_chance does not hold for it: replicates tell its noise. Returns
- * 0, or -1 when out of memory. */
-int tally_split(struct tally *tally, const struct tracer *t, const float *window);
+ * share of the power of all over their number; borrowed. Emitters are chosen by it, too. No
+ * particle is split down to less than `least`, but of an emitter that has less than that to send,
+ * as of a weak lamp in a room of its own, no less than it starts with. rays: that will be cast,
+ * about. The tally counts on leaves, and tally_chance does not hold for it: replicates tell its
+ * noise. Returns 0, or -1 when out of memory. */
+int tally_split(struct tally *tally, const struct tracer *t, const float *window, double least,
+                double rays);
 
 /* Trace so many particles more in each replicate. Without emitters nothing is traced and all is
  * exactly 0. Where there are several ranks each traces its part, and all then have all. watch:

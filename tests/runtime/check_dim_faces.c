@@ -218,26 +218,26 @@ END_TEST
 /* Split particles: the dark box is met by as many as the bright one, each wall by the light that it
  * has, and how replicates differ is how far they are off. The windows are wrong by half an order of
  * magnitude, here and there. */
-START_TEST(test_split)
+static void split_boxes(double dark)
 {
     struct scene scene;
     struct solve s;
     struct tally tally;
-    two_furnaces(&s, &scene, DARK, 2);
+    two_furnaces(&s, &scene, dark, 2);
     const struct hierarchy *h = &s.hierarchy;
     struct tracer t = solve_tracer(&s);
     float *window = malloc(h->count * sizeof *window);
     for (uint32_t e = 0; e < h->count; e++) {
         uint32_t face = h->elements[e].vertices ? h->elements[e].face : 0;
-        window[e] = (float)((face < WALL ? 1 : DARK) * (e % 3 == 0 ? 0.3 : 1));
+        window[e] = (float)((face < WALL ? 1 : dark) * (e % 3 == 0 ? 0.3 : 1));
     }
     ck_assert_int_eq(tracer_open(&t), 0);
     ck_assert_int_eq(tally_open(&tally, &t, MEND_STREAM, 1), 0);
-    ck_assert_int_eq(tally_split(&tally, &t, window), 0);
+    ck_assert_int_eq(tally_split(&tally, &t, window, DIM_LEAST, 1e6), 0);
     ck_assert_int_eq(tally_trace(&tally, &t, 20000, NULL), 0);
     double chi = 0, walls[2] = {0, 0};
     for (uint32_t f = 0; f < h->face_count; f++) {
-        double true_light = f < WALL ? 1 : DARK, mean = 0, square = 0;
+        double true_light = f < WALL ? 1 : dark, mean = 0, square = 0;
         double area = h->elements[h->face_element[f]].area;
         for (int r = 0; r < REPLICATES; r++) {
             double H = tally_face(&tally, r, f, 0) / area / true_light;
@@ -257,6 +257,36 @@ START_TEST(test_split)
     tally_close(&tally);
     tracer_close(&t);
     free(window);
+    solve_close(&s);
+    made_close(&scene);
+}
+
+START_TEST(test_split)
+{
+    split_boxes(DARK);
+}
+END_TEST
+
+/* The dark box has a lamp of its own that nobody would miss: as many start there as elsewhere, and
+ * what they carry is not gathered in a few. */
+START_TEST(test_split_weak_lamp)
+{
+    split_boxes(1e-10);
+}
+END_TEST
+
+/* As a whole: the walls of that box are known, and right where links were. */
+START_TEST(test_weak_lamp)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    two_furnaces(&s, &scene, 1e-10, 2);
+    mend_all(&s, 1e-2, 200000, &alone);
+    ck_assert_double_eq_tol(of_face(&s, WALL) / 1e-10, 1, 0.05);
+    for (uint32_t i = 0; i < alone.dim.unsure; i++)
+        ck_assert_uint_gt(alone.dim.named[i], WALL);
+    measured_error_free(&alone);
     solve_close(&s);
     made_close(&scene);
 }
@@ -515,6 +545,8 @@ int main(void)
     tcase_add_test(tests, test_plan);
     tcase_add_test(tests, test_plan_rest);
     tcase_add_test(tests, test_split);
+    tcase_add_test(tests, test_split_weak_lamp);
+    tcase_add_test(tests, test_weak_lamp);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
     tcase_add_test(tests, test_small);
