@@ -775,6 +775,11 @@ struct RadErrorReport {
      * of both are so dim that, mended, their light is not known to 5 % (two standard errors):
      * those, groups by a polygon of them */
     uint32_t large, gathered, unsure, unsure_named[RAD_UNSURE_NAMED];
+    /* and of polygons that are no larger than that how many are not known to 5 %, neither by what
+     * was counted on them, nor by paths, nor by what mending is thought to leave of their error;
+     * and the area of these together (m2) */
+    uint32_t small_unsure;
+    double small_area;
     uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
     /* 1: `particles` are paths from polygons: where these tell polygons at a far lower price, as
      * under a sky, they mend and measure (engine/path_mending.c) */

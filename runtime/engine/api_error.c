@@ -45,6 +45,8 @@ static struct RadErrorReport report_of(const struct measured_error *m)
     r.large = m->dim.large;
     r.gathered = m->gathered;
     r.unsure = m->dim.unsure;
+    r.small_unsure = m->small.unsure;
+    r.small_area = m->small.area;
     r.rays = m->rays;
     r.particles = m->particles;
     r.by_paths = (uint32_t)m->by_paths;

@@ -13,7 +13,10 @@
  * much. Taken is the mean of both, each by the inverse of its variance.
  *
  * Smaller polygons are nobody's loss in the light of all, but somebody's room in a landscape. They
- * are asked in the same way where few rays have been cast.
+ * are asked in the same way where few rays have been cast; and those that stay unknown are counted,
+ * for no other figure shows them. Of tiles of a bright wall particles know none, and yet links and
+ * particles together know them all: mending tells how far off it leaves clusters and faces by the
+ * number that met them (mend_clusters.c), and what is right to DIM_GOAL by that is known.
  *
  * A polygon whose paths all meet nothing is one that touches what it is turned to, as a cupboard's
  * back does a wall: it is dark, and no more is asked.
@@ -34,6 +37,7 @@
 #include "engine/dim_list.h"
 #include "engine/dim_plan.h"
 #include "engine/dim_split.h"
+#include "engine/mend.h"
 #include "engine/own_quarters.h"
 #include "engine/reflected_light.h"
 #include "hierarchy/children_first.h"
@@ -93,6 +97,74 @@ static double sure_of(uint32_t count)
             high = middle;
     }
     return fmin(DIM_OFF / high, DIM_GOAL);
+}
+
+/* What mending leaves of the error of faces: [built * bands], the caller's, as mend_clusters.h has
+ * it. NULL when out of memory. */
+static double *doubt_of_faces(const struct dim_faces *d, const struct tally *tally)
+{
+    const struct solve *s = d->solve;
+    const size_t values = (size_t)s->hierarchy.built * s->problem.bands + 1;
+    double *irradiance = calloc(values, sizeof *irradiance), *doubt = calloc(values, sizeof *doubt);
+    const int failed =
+        ranks_any(d->tracer->ranks, !irradiance || !doubt)
+        || mend_faces(&s->operator, tally, s->state.irradiance, irradiance, doubt) < 0;
+    free(irradiance);
+    if (failed) {
+        free(doubt);
+        return NULL;
+    }
+    return doubt;
+}
+
+/* The standard error of the polygon's light by that, as a share of it: of one cluster as a rule,
+ * its faces are off together. */
+static double doubt_of(const struct dim_faces *d, const double *doubt, const struct dim_polygon *p)
+{
+    const struct tracer *t = d->tracer;
+    double off = 0;
+    for (uint32_t i = p->from; i < p->to; i++)
+        for (uint32_t k = 0; k < t->bands; k++) {
+            const size_t at = (size_t)t->hierarchy->face_element[d->face[i]] * t->bands + k;
+            off += t->reflectance[(size_t)d->face[i] * t->bands + k]
+                   * d->solve->mended.irradiance[at] * tracer_surface(t, d->face[i])->area / p->area
+                   * sqrt(doubt[at]);
+        }
+    return p->light > 0 ? off / p->light : 1;
+}
+
+/* Those that are not to be known, as no paths are for them, are counted. Returns 0, or -1 when out
+ * of memory. */
+static int count_unasked(const struct dim_faces *d, const struct tally *tally,
+                         struct dim_count *count)
+{
+    double *doubt = d->count > 0 ? doubt_of_faces(d, tally) : NULL;
+    const int failed = d->count > 0 && !doubt;
+    for (uint32_t j = 0; j < d->count && !failed; j++) {
+        struct dim_polygon *p = &d->polygon[j];
+        p->told = doubt_of(d, doubt, p) <= DIM_GOAL;
+        if (p->asked || p->told)
+            continue;
+        count->unsure++;
+        count->area += p->area;
+    }
+    free(doubt);
+    return failed ? -1 : 0;
+}
+
+/* Only those that may be asked are kept. */
+static void keep_asked(struct dim_faces *d)
+{
+    uint32_t kept = 0;
+    for (uint32_t p = 0; p < d->parts; p++) { /* places rise with p */
+        if (d->of[p] == NOT_DIM)
+            continue;
+        const struct dim_polygon at = d->polygon[d->of[p]];
+        d->of[p] = at.asked ? kept : NOT_DIM;
+        if (at.asked)
+            d->polygon[kept++] = at;
+    }
+    d->count = kept;
 }
 
 /* Those that are dim; the others are forgotten. Returns 0, or -1 when out of memory. */
@@ -173,8 +245,9 @@ static void count_unsure(const struct dim_faces *d, struct dim_count *count)
 {
     for (uint32_t j = 0; j < d->count; j++) {
         const struct dim_polygon *p = &d->polygon[j];
-        if (dim_is_sure(d, p))
+        if (p->told || dim_is_sure(d, p))
             continue;
+        count->area += p->area;
         if (count->unsure < RAD_UNSURE_NAMED)
             count->named[count->unsure] = name_of(d, p, count);
         count->unsure++;
@@ -346,6 +419,8 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
         d.shared = size != DIM_SMALL_ONES ? shared_doubt(light, variance) : 0;
         d.sure = size != DIM_SMALL_ONES ? sure_of(d.count) : DIM_GOAL;
         failed = keep_dim(&d, tally) < 0;
+        failed = failed || (size == DIM_SMALL_ONES && count_unasked(&d, tally, count) < 0);
+        keep_asked(&d);
         d.believed = believed(&d, tally);
         failed = failed || (d.count > 0 && quarter_light_open(&d.light, s) < 0);
         for (uint32_t i = 0; i < t->hierarchy->face_count && !failed; i++)
@@ -373,6 +448,7 @@ void dim_count_add(struct dim_count *to, const struct dim_count *c)
         to->named[to->unsure + i] = c->named[i];
     to->large += c->large;
     to->unsure += c->unsure;
+    to->area += c->area;
     const size_t named = to->unsure < RAD_UNSURE_NAMED ? to->unsure : RAD_UNSURE_NAMED;
     qsort(to->named, named, sizeof *to->named, compare_words);
 }

@@ -15,6 +15,7 @@
  * face's polygon. */
 struct dim_count {
     uint32_t large, unsure, named[RAD_UNSURE_NAMED];
+    double area; /* of those (m2) */
 };
 
 /* Irradiances of the mended solution s->mended, which `tally` has mended, are set anew: those of
@@ -22,11 +23,12 @@ struct dim_count {
  * these are many than one in which none is off by much, by paths from their points, and where these
  * do not know it either by particles that are split; all others by one factor per band, so that the
  * scene receives what it did. Of small ones no more are asked, the largest, than so many rays can
- * tell. Radiosities are the caller's to set. At most about `paths` rays are cast for paths, as many
- * again where that makes those surer that are known, and no more than about `both` where particles
- * are split besides; *rays is raised by them. Without such polygons none. watch: NULL, or asked.
- * *count: what is known then. Returns how many polygons were changed, or -1 when out of memory or
- * stopped. */
+ * tell; but all are counted that are not known, neither by the tally, nor by what mending leaves
+ * of their error, nor by paths. Radiosities are the caller's to set. At most about `paths` rays are
+ * cast for paths, as many again where that makes those surer that are known, and no more than about
+ * `both` where particles are split besides; *rays is raised by them. Without such polygons none.
+ * watch: NULL, or asked. *count: what is known then. Returns how many polygons were changed, or -1
+ * when out of memory or stopped. */
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                    enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count);

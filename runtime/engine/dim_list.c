@@ -70,7 +70,8 @@ static int is_asked(const struct dim_faces *d, const struct candidate *c)
     return c->area > 0 && size == d->size;
 }
 
-/* Those to look at, no more than `most`, the largest ones. Returns 0, or -1 when out of memory. */
+/* Those to look at; no more than `most` of them, the largest ones, may be asked. Returns 0, or -1
+ * when out of memory. */
 static int list_polygons(struct dim_faces *d, uint32_t most)
 {
     const struct hierarchy *h = d->tracer->hierarchy;
@@ -89,12 +90,14 @@ static int list_polygons(struct dim_faces *d, uint32_t most)
     }
     if (!failed && asked > most)
         qsort(all, asked, sizeof *all, by_area);
-    for (uint32_t i = 0; i < asked && i < most; i++)
+    for (uint32_t i = 0; i < asked; i++)
         d->of[all[i].part] = 0;
     for (uint32_t p = 0; p < d->parts && !failed; p++)
         if (d->of[p] != NOT_DIM)
             d->of[p] = d->count++;
     d->polygon = failed ? NULL : calloc((size_t)d->count + 1, sizeof *d->polygon);
+    for (uint32_t i = 0; i < asked && i < most && d->polygon; i++)
+        d->polygon[d->of[all[i].part]].asked = 1;
     free(all);
     free(area);
     return d->polygon ? 0 : -1;

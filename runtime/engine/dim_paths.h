@@ -18,6 +18,8 @@ struct dim_polygon {
     double light;      /* what it reflects once mended, mean over it, all bands (W/m2) */
     double variance;   /* s^2 of that */
     double mended[3];  /* mean irradiance once mended (W/m2) */
+    int asked;         /* 1: may be asked by paths; 0: there are too many */
+    int told;          /* 1: known by what mending leaves of its error */
     int planned;       /* 1: is to reach DIM_GOAL */
     uint64_t looked;   /* paths of a first look */
     uint64_t paths, wanted, rays;

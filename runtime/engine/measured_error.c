@@ -242,7 +242,7 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                               .now = budget,
                               .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {tell, &watched};
-    struct dim_count groups, small;
+    struct dim_count groups;
     if (mend_polygons(s, t, tally, DIM_LARGE_ONES, paths, both, &watch, spent, &alone->dim) < 0)
         return -1;
     /* Of groups it is told in any case which are not known. */
@@ -254,9 +254,8 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
         return -1;
     alone->gathered = groups.large;
     dim_count_add(&alone->dim, &groups);
-    const double rest = left - (double)(*spent - before);
-    return rest > 0 ? mend_polygons(s, t, tally, DIM_SMALL_ONES, rest, 0, &watch, spent, &small)
-                    : 0;
+    const double rest = fmax(left - (double)(*spent - before), 0);
+    return mend_polygons(s, t, tally, DIM_SMALL_ONES, rest, 0, &watch, spent, &alone->small);
 }
 
 static int mend_by(struct solve *s, const struct tally *tally, double *irradiance)

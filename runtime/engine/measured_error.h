@@ -20,6 +20,7 @@ struct measured_error {
     struct tally tally;
     struct black_backs backs;
     struct dim_count dim;     /* once mended, by measure_and_mend alone: large ones and groups */
+    struct dim_count small;   /* likewise: of smaller ones how many are not known, and their area */
     uint32_t gathered;        /* of these groups */
     uint64_t rays, particles; /* particles: paths, where by_paths */
     int by_paths;

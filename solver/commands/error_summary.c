@@ -140,6 +140,17 @@ static void print_unsure(const struct measured *m)
     puts(r->unsure > UNSURE_SHOWN ? ", ... (--json has all)" : "");
 }
 
+/* Smaller faces that nobody knows, which no figure of all light shows: a room in a landscape. */
+static void print_small(const struct measured *m)
+{
+    const struct RadErrorReport *r = &m->alone;
+    if (m->mended && r->small_unsure > 0)
+        printf("small     %u face%s of %.3g m2 in all, each below 1 %% of the area, %s not known "
+               "to 5 %%\n",
+               (unsigned)r->small_unsure, r->small_unsure > 1 ? "s" : "", r->small_area,
+               r->small_unsure > 1 ? "are" : "is");
+}
+
 /* of a band's own light: as a reader holds every face to, and so much more than of all light */
 static const double BAND_TOLD = 0.05, BAND_WORSE = 4;
 
@@ -157,6 +168,16 @@ static void print_bands(const struct measured *m)
         else
             puts("next to nothing; it is as links say");
     }
+}
+
+/* What nobody knows is not surely wrong: where that are large faces it is said with it. */
+static void print_none_wrong(const struct measured *m)
+{
+    const struct RadErrorReport *r = &m->alone;
+    fputs("; no large face is surely wrong", stdout);
+    if (m->mended && r->unsure > 0)
+        printf(", but %u of %u are not known", (unsigned)r->unsure, (unsigned)r->large);
+    putchar('\n');
 }
 
 void measured_print(const struct measured *m, uint32_t polygons, int no_links)
@@ -178,6 +199,7 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
                "is\n",
                (double)e->particles, e->unseen);
         print_unsure(m);
+        print_small(m);
         return;
     }
     if (!(e->reflected > 0)) {
@@ -187,6 +209,10 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
     }
     fputs("error     reflected light per face: off by ", stdout);
     print_share(stdout, &e->l1_faces);
+    /* mending makes nothing worse: where twice as much was known of the links, this is noise */
+    if (m->mended && !(e->l1_faces.low > 0) && e->l1_faces.high > 2 * m->alone.l1_faces.high)
+        printf(", as far as %.3g %s tell", (double)e->particles,
+               e->by_paths ? "paths" : "particles");
     print_power(stdout, e);
     if (e->worst < polygons && e->worst_share > 10) /* a face in the dark: percents say little */
         printf("; worst large face %u: %.3g times as bright as it should be\n", (unsigned)e->worst,
@@ -196,8 +222,9 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
                100 * fabs(e->worst_share), e->worst_share < 0 ? "dark" : "bright",
                100 * e->worst_sure);
     else
-        printf("; no large face is surely wrong\n");
+        print_none_wrong(m);
     print_unsure(m);
+    print_small(m);
     print_bands(m);
     if (e->backs > 0)
         printf("backs     %.3g %% of the emitted light ends on black backs, %.3g %% of that on the "
@@ -301,5 +328,7 @@ json_t *mended_json(const struct measured *m)
     json_object_set_new(all, "large_groups", json_integer(m->alone.gathered));
     json_object_set_new(all, "large_faces_unsure", json_integer(m->alone.unsure));
     json_object_set_new(all, "first_unsure", unsure_json(&m->alone));
+    json_object_set_new(all, "small_faces_unsure", json_integer(m->alone.small_unsure));
+    json_object_set_new(all, "small_faces_unsure_area", json_real(m->alone.small_area));
     return all;
 }

@@ -395,6 +395,31 @@ START_TEST(test_groups_told)
 }
 END_TEST
 
+/* What is small and not known is counted, though no ray is left to ask it: all parts of the dark
+ * box. Parts of a bright one that few particles met links and particles together know, but for one
+ * in twenty. */
+START_TEST(test_small_told)
+{
+    static const double light[] = {DARK, 1};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct solve s;
+        struct measured_error alone;
+        two_furnaces(&s, &scene, light[i], 2);
+        s.report.counts.rays = 1000000000;
+        mend_all(&s, 1e-2, 200000, &alone);
+        if (i == 0)
+            ck_assert_uint_eq(alone.small.unsure, 5 * CUTS * CUTS);
+        else
+            ck_assert_uint_le(alone.small.unsure, 5 * CUTS * CUTS / 20);
+        ck_assert_double_eq_tol(alone.small.area, alone.small.unsure * (1.0 / (CUTS * CUTS)), 1e-9);
+        measured_error_free(&alone);
+        solve_close(&s);
+        made_close(&scene);
+    }
+}
+END_TEST
+
 /* Small faces where little light is: all of them are three times too bright, and none stays so. */
 START_TEST(test_small)
 {
@@ -550,6 +575,7 @@ int main(void)
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
     tcase_add_test(tests, test_small);
+    tcase_add_test(tests, test_small_told);
     tcase_add_test(tests, test_dim_places);
     tcase_add_test(tests, test_bright);
     suite_add_tcase(suite, tests);

@@ -173,6 +173,45 @@ START_TEST(test_error)
 }
 END_TEST
 
+/* What nobody knows is not called right: large faces, small ones, and noise that is no error. */
+START_TEST(test_unknown)
+{
+    char text[4096];
+    report = (struct RadReport){.passes = 2, .converged = 1};
+    measured = (struct measured){
+        .measured = 1,
+        .mended = 1,
+        .error = {.l1_faces = {0, 0, 0.26}, .reflected = 1, .particles = 2000000},
+        .alone = {.l1_faces = {0, 0, 0.091},
+                  .reflected = 1,
+                  .large = 37,
+                  .unsure = 36,
+                  .small_unsure = 24,
+                  .small_area = 168.3},
+    };
+    json_t *json = summarise(text, sizeof text), *mended = json_object_get(json, "correction");
+    ck_assert_ptr_nonnull(strstr(text, "off by at most 26 %, as far as 2e+06 particles tell, in "
+                                       "all right within 0.01 %; no large face is surely wrong, "
+                                       "but 36 of 37 are not known\n"));
+    ck_assert_ptr_nonnull(strstr(text, "\nsmall     24 faces of 168 m2 in all, each below 1 % of "
+                                       "the area, are not known to 5 %\n"));
+    ck_assert_int_eq(json_integer_value(json_object_get(mended, "small_faces_unsure")), 24);
+    ck_assert_double_eq(json_real_value(json_object_get(mended, "small_faces_unsure_area")), 168.3);
+    json_decref(json);
+    measured.alone.small_unsure = 1;
+    measured.error.l1_faces.high = 0.18; /* less than twice of what was known before */
+    json_decref(summarise(text, sizeof text));
+    ck_assert_ptr_nonnull(strstr(text, "off by at most 18 %, in all"));
+    ck_assert_ptr_nonnull(strstr(text, "\nsmall     1 face of 168 m2 in all, each below 1 % of "
+                                       "the area, is not known to 5 %\n"));
+    measured.alone.small_unsure = measured.alone.unsure = 0;
+    json_decref(summarise(text, sizeof text));
+    ck_assert_ptr_nonnull(strstr(text, "; no large face is surely wrong\n"));
+    ck_assert_ptr_null(strstr(text, "\nsmall"));
+    measured = (struct measured){0};
+}
+END_TEST
+
 /* The worst face of four, 3, that is off by a share of its light: what is printed of it. */
 static void print_worst(char *text, size_t size, double share, double sure)
 {
@@ -220,6 +259,7 @@ int main(void)
     tcase_add_test(c, test_iteration_ends);
     tcase_add_test(c, test_converged);
     tcase_add_test(c, test_error);
+    tcase_add_test(c, test_unknown);
     tcase_add_test(c, test_worst_face);
     tcase_add_test(c, test_solver);
     suite_add_tcase(suite, c);
