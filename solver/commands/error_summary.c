@@ -176,7 +176,8 @@ static void print_none_wrong(const struct measured *m)
     const struct RadErrorReport *r = &m->alone;
     fputs("; no large face is surely wrong", stdout);
     if (m->mended && r->unsure > 0)
-        printf(", but %u of %u are not known", (unsigned)r->unsure, (unsigned)r->large);
+        printf(", but %u of %u %s not known", (unsigned)r->unsure, (unsigned)r->large,
+               r->unsure > 1 ? "are" : "is");
     putchar('\n');
 }
 
