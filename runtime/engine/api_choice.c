@@ -220,6 +220,7 @@ static int keep_better(struct choosing *x, const struct RadPlaces *coarse, RadSo
     radReleaseSolution(*solution);
     x->linked = 0;
     x->so_far.no_links = none;
+    x->so_far.worse = 1;
     return solve(x, none ? 1 : COARSE, 0, solution);
 }
 

@@ -42,6 +42,7 @@ struct integral {
     int width;    /* of vectors */
     double sum[3][3];
     int cells;
+    long pairs; /* of cells so far */
     struct cell cell[CELLS];
 };
 
@@ -266,11 +267,13 @@ static void add_cells(struct integral *c, struct cell *r, struct cell *s)
     double distance = length3(away);
     if (distance > LINEAR_NEAR * sizes) {
         add_apart(c, r, s, distance > LINEAR_FAR * sizes ? 1 : 2);
+        c->pairs++;
         return;
     }
     struct cell *larger = r->e.radius > s->e.radius ? r : s, own[4];
     if (!(larger->e.radius > c->least)) {
         add_touching(c, r, s);
+        c->pairs++;
         return;
     }
     struct cell *part = parts_of(c, larger, own);
@@ -301,10 +304,10 @@ static int cut_at_plane(const struct linear_side *side, const struct element *ot
 
 void linear_coupling_integrate(double c[3][3], struct linear_side r, struct linear_side s)
 {
-    linear_coupling_at(lanes_width(), c, r, s);
+    (void)linear_coupling_at(lanes_width(), c, r, s);
 }
 
-void linear_coupling_at(int width, double c[3][3], struct linear_side r, struct linear_side s)
+long linear_coupling_at(int width, double c[3][3], struct linear_side r, struct linear_side s)
 {
     struct integral sum; /* without its cells' 100 kB, which are set where they are made */
     struct cell of_r[2], of_s[2];
@@ -313,6 +316,7 @@ void linear_coupling_at(int width, double c[3][3], struct linear_side r, struct 
     sum.least = LINEAR_CELL * fmin(r.element->radius, s.element->radius);
     sum.width = width;
     sum.cells = 0;
+    sum.pairs = 0;
     memset(sum.sum, 0, sizeof sum.sum);
     for (int i = 0; i < cells_of_r; i++)
         for (int j = 0; j < cells_of_s; j++)
@@ -320,6 +324,7 @@ void linear_coupling_at(int width, double c[3][3], struct linear_side r, struct 
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
             c[a][b] = r.element->area > 0 ? sum.sum[a][b] / r.element->area : 0;
+    return sum.pairs;
 }
 
 /* The factor in [0, 1] that makes F + b1 phi_1 + b2 phi_2 nonnegative over the element. */

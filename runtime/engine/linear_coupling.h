@@ -39,8 +39,9 @@ struct linear_side {
 /* All nine by quadrature, C_00 too, without limits. */
 void linear_coupling_integrate(double c[3][3], struct linear_side r, struct linear_side s);
 
-/* The same in vectors of a width, lanes_width() at the most. */
-void linear_coupling_at(int width, double c[3][3], struct linear_side r, struct linear_side s);
+/* The same in vectors of a width, lanes_width() at the most. Returns how many pairs of cells it
+ * took. */
+long linear_coupling_at(int width, double c[3][3], struct linear_side r, struct linear_side s);
 
 /* Scale to the form factor F of the link. */
 void linear_coupling_scale(double c[3][3], double form_factor);

@@ -296,6 +296,7 @@ START_TEST(test_wrong_links)
     ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(device));
     ck_assert_int_eq(told.times, 3);
     ck_assert_int_eq(choice.no_links, gaps[_i].none);
+    ck_assert_int_eq(choice.worse, 1);
     if (!choice.no_links)
         ck_assert_double_eq(choice.scale, 16);
     radReleaseSolution(solution);
