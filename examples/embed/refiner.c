@@ -2403,8 +2403,7 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
  *
  * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
  * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes
- * it. Who asks
- *             for one of these two here gets four rays.
+ *             it. Who asks for one of these two here gets four rays.
  * rays_N      N = 1, 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
  *             facing parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose
  *             digits are shifted by a hash of both path identities: no shared random state, so the
@@ -2413,8 +2412,8 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
  *             blocker that shades the fraction p of the segments is missed with probability
  *             (1-p)^N.
  * exact       from a shaft (tools/shaft.h) or an integral over the visible part
- * (tools/exact_visibility.h), which alone
- *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
+ *             (tools/exact_visibility.h), which alone make it. Who asks for it here, where it is
+ *             not known, gets 1024 rays. */
 #ifndef REFINER_TERM_VISIBILITY_H
 #define REFINER_TERM_VISIBILITY_H
 
