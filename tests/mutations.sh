@@ -144,6 +144,7 @@ parts that are right stay parts | runtime/engine/element_error.c | s/s->told = i
 limits without noise | runtime/engine/element_error.c | s/ELEMENT_ERROR_LIMIT \* sqrt/0.01 * sqrt/ | runtime/check_element_error
 bands by themselves | runtime/engine/face_error.c | s/noise += c->deviation\[j\]/noise = hypot(noise, c->deviation[j])/ | runtime/check_element_error
 what is covered is handed light | runtime/engine/operator.h | s/return op->uncovered\[e\] > 0 ? op->uncovered\[j\] \/ op->uncovered\[e\] : 1;/return 1 + 0 * op->uncovered[e + 0 * j];/ | runtime/check_transport
+sets have the slope of all | runtime/particles/power_balance.c | s/LEFT_OUT \* q \* p/0 * q * p/; s/LEFT_OUT \* q \* q/0 * q * q/ | runtime/check_power_balance
 what leaves is still here | runtime/particles/power_balance.c | s/= ended\[k\] + unit/= ended[k] + 0 * unit/ | runtime/check_power_balance
 leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correction\[REPLICATES\]\[band\])/1/ | runtime/check_power_balance
 hidden at its middle, hidden all over | runtime/engine/sight_outlines.c | s/met &= sight_faces_met/(void)sight_faces_met/ | runtime/check_outlines

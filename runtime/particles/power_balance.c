@@ -5,12 +5,15 @@
  * what leaves the scene is what is emitted, E. A set of particles has counted Q instead. Light
  * reflected, P, differs from set to set as Q does, or partly so; by how much, b, is the slope of P
  * over Q among the REPLICATES sets. So P - b (Q - E) is light reflected as before, in the mean, and
- * less noisy: all counts of a set and a band are scaled alike to come to it. A set takes the slope
- * of all others, lest sets agree because they have chosen it. Where all faces reflect alike nothing
- * is left of the noise of P; where P and Q have nothing in common b is near 0 and costs a
- * thirteenth of the variance.
+ * less noisy: all counts of a set and a band are scaled alike to come to it. What a set is taken to
+ * have found is what it adds to what all others found by their own slope, n times the mean of all
+ * less n - 1 times that of the others: so how sets differ tells the noise of the slope, too, where
+ * it hangs on the few particles that it corrects. Where all faces reflect alike nothing is left of
+ * the noise of P; where P and Q have nothing in common b is near 0 and costs a thirteenth of the
+ * variance.
  *
- * [control variates by regression: Lavenberg and Welch 1981]
+ * [control variates by regression: Lavenberg and Welch 1981; what a set adds: Tukey 1958, the
+ * jackknife]
  * Fails: nothing is gained for how light is spread over faces.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -65,12 +68,22 @@ static double emitted(const struct tally *tally, const struct tracer *t, uint32_
     return sum;
 }
 
-/* What is counted too little, as a share; the slope is both / square. */
-static double correct(const struct balance *b, double ended, double reflected, double both,
-                      double square)
+/* Sums over the sets, or over some of them (W, W2). */
+struct sums {
+    double sets, reflected, ended, both, square; /* both, square: about the mean of all */
+};
+
+/* The light reflected, as the slope makes it. */
+static double balanced(const struct sums *s, double emitted)
 {
-    const double slope = square > 0 ? both / square : 0;
-    return reflected > 0 ? fmax(slope * (b->emitted - ended) / reflected, -1) : 0;
+    const double slope = s->square > 0 ? s->both / s->square : 0;
+    return fmax((s->reflected - slope * (s->ended - s->sets * emitted)) / s->sets, 0);
+}
+
+/* What is counted too little where so much should be, as a share. */
+static double too_little(double balanced, double counted)
+{
+    return counted > 0 ? fmax(balanced / counted - 1, -1) : 0;
 }
 
 /* Squares about the mean without one of n are less by so many times its own about that of all. */
@@ -86,7 +99,7 @@ void power_balance(struct tally *tally, const struct tracer *t)
     thread_pool_run(t->threads, REPLICATES, 1, add_faces, &balancing);
     for (uint32_t k = 0; k < tally->bands; k++) {
         struct balance b = balance[k];
-        double reflected = 0, ended = 0, both = 0, square = 0;
+        struct sums all = {.sets = REPLICATES};
         if (tally->parted_faces
             || tally->quarters) { /* sums of sums: nobody needs the counts themselves */
             ranks_add(t->ranks, RANKS_PARTICLES, b.reflected, REPLICATES);
@@ -94,18 +107,24 @@ void power_balance(struct tally *tally, const struct tracer *t)
         }
         b.emitted = emitted(tally, t, k);
         for (int r = 0; r < REPLICATES; r++) {
-            reflected += b.reflected[r] / REPLICATES;
-            ended += b.ended[r] / REPLICATES;
+            all.reflected += b.reflected[r];
+            all.ended += b.ended[r];
         }
+        const double reflected = all.reflected / REPLICATES, ended = all.ended / REPLICATES;
         for (int r = 0; r < REPLICATES; r++) {
-            both += (b.ended[r] - ended) * (b.reflected[r] - reflected);
-            square += (b.ended[r] - ended) * (b.ended[r] - ended);
+            all.both += (b.ended[r] - ended) * (b.reflected[r] - reflected);
+            all.square += (b.ended[r] - ended) * (b.ended[r] - ended);
         }
-        for (int r = 0; r < REPLICATES; r++)
+        const double mean = balanced(&all, b.emitted);
+        for (int r = 0; r < REPLICATES; r++) {
+            const double p = b.reflected[r] - reflected, q = b.ended[r] - ended;
+            const struct sums others = {REPLICATES - 1, all.reflected - b.reflected[r],
+                                        all.ended - b.ended[r], all.both - LEFT_OUT * q * p,
+                                        all.square - LEFT_OUT * q * q};
             tally->correction[r][k] =
-                correct(&b, b.ended[r], b.reflected[r],
-                        both - LEFT_OUT * (b.ended[r] - ended) * (b.reflected[r] - reflected),
-                        square - LEFT_OUT * (b.ended[r] - ended) * (b.ended[r] - ended));
-        tally->correction[REPLICATES][k] = correct(&b, ended, reflected, both, square);
+                too_little(REPLICATES * mean - (REPLICATES - 1) * balanced(&others, b.emitted),
+                           b.reflected[r]);
+        }
+        tally->correction[REPLICATES][k] = too_little(mean, reflected);
     }
 }
