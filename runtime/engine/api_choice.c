@@ -22,11 +22,11 @@
  * nobody waits more than about twice as long as for the better way, whatever e falls with. Finer
  * links are solved for anew: what was given up coarsely is not missed then.
  *
- * Where form factors are wrong, as in a gap that is narrower than its leaves are wide, finer links
- * may be farther off than coarse ones. They are measured, too, by as few particles: where they are
- * surely worse the coarse ones come back, and where the better of both are off by more than all
- * they say there are none. All follows from counts, so the choice is the same on any machine, and
- * on any number of them. [Derived here]
+ * Where leaves are too wide for their light, as in a gap that is narrower than they are, finer
+ * links may be farther off than coarse ones. They are measured, too, by as few particles: where
+ * they are surely worse the coarse ones come back, and where the better of both are off by more
+ * than all they say there are none. All follows from counts, so the choice is the same on any
+ * machine, and on any number of them. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>

@@ -249,9 +249,9 @@ START_TEST(test_links_do_not_pay)
 }
 END_TEST
 
-/* A closed gap, narrower than leaves are wide, with a lamp on one edge: form factors between its
- * sides are wrong. In `gone` finer links are nearer the light than coarse ones, and off by more
- * than all they say; in `back` they are farther off, and coarse ones are not so bad. */
+/* A closed gap, narrower than leaves are wide, with a lamp on one edge: links are far off. In
+ * `gone` finer links are nearer the light than coarse ones, and off by more than all they say; in
+ * `back` they are farther off, and coarse ones are not so bad. */
 struct gap {
     double size[3], reflects[6], emits[6];
     int none;
