@@ -55,12 +55,24 @@ static void fill_faces(const struct mend_sums *m, const double *irradiance)
         const uint32_t whole = h->face_element[at->face];
         for (uint32_t k = 0; k < m->bands && !at->children; k++)
             m->linked[mend_at(m, whole, k)] += at->area * irradiance[(size_t)e * m->bands + k];
-        if (e != whole)
+        if (e != whole || !tally_holds(m->tally, at->face))
             continue;
         take_face(m, e, at->face);
         for (uint32_t k = 0; k < m->bands; k++)
             m->received[mend_at(m, e, k)] = tally_face_mean(m->tally, at->face, k);
     }
+}
+
+/* Once every rank has all links, each still has the counts of its own faces alone, and tells them.
+ */
+static void tell_counts(const struct mend_sums *m)
+{
+    struct ranks *ranks = m->op->shares.ranks;
+    const size_t values = (size_t)m->places.built * m->bands;
+    if (!m->tally->quarters || m->op->shares.common)
+        return;
+    ranks_add(ranks, RANKS_PARTICLES, m->received, values);
+    ranks_add(ranks, RANKS_PARTICLES, m->replicate, REPLICATES * values);
 }
 
 static void sum_children(const struct mend_sums *m, uint32_t e)
@@ -122,6 +134,7 @@ int mend_sums_open(struct mend_sums *m, const struct light_operator *op, const s
         return -1;
     if (depth == MEND_FACES) {
         fill_faces(m, irradiance);
+        tell_counts(m);
         children_first_clusters(h, add_children, m);
     } else {
         const struct filling x = {m, irradiance};
