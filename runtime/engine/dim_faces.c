@@ -38,6 +38,7 @@
 #include "engine/dim_plan.h"
 #include "engine/dim_split.h"
 #include "engine/mend.h"
+#include "engine/mend_places.h"
 #include "engine/own_quarters.h"
 #include "engine/reflected_light.h"
 #include "hierarchy/children_first.h"
@@ -99,6 +100,19 @@ static double sure_of(uint32_t count)
     return fmin(DIM_OFF / high, DIM_GOAL);
 }
 
+/* Each rank knows what mending leaves of the error of its own faces, and tells it. */
+static void tell_doubt(const struct light_operator *op, uint32_t bands, double *doubt)
+{
+    const uint32_t built = op->hierarchy->built;
+    if (!op->shares.common)
+        return;
+    for (uint32_t e = 0; e < built; e++)
+        for (uint32_t k = 0; k < bands; k++)
+            if (!op->hierarchy->elements[e].vertices || !mend_is_added(op, e))
+                doubt[(size_t)e * bands + k] = 0;
+    ranks_add(op->shares.ranks, RANKS_PARTICLES, doubt, (size_t)built * bands);
+}
+
 /* What mending leaves of the error of faces: [built * bands], the caller's, as mend_clusters.h has
  * it. NULL when out of memory. */
 static double *doubt_of_faces(const struct dim_faces *d, const struct tally *tally)
@@ -114,6 +128,7 @@ static double *doubt_of_faces(const struct dim_faces *d, const struct tally *tal
         free(doubt);
         return NULL;
     }
+    tell_doubt(&s->operator, s->problem.bands, doubt);
     return doubt;
 }
 

@@ -50,6 +50,7 @@ compare_ranks() { # SCENE RANKS...: against one process
                 [ "$(value several.json $key)" = "$(value one.json $key)" -a -n "$(value one.json $key)" ]
         done
         check "$name on $n ranks: other decisions" diff <(sed -n '/"decisions"/,/}/p' one.json) <(sed -n '/"decisions"/,/}/p' several.json)
+        check "$name on $n ranks: other faces that are not known" diff <(grep _unsure one.json) <(grep _unsure several.json)
         check "$name on $n ranks: $(value several.json power_absorbed) W absorbed, alone $(value one.json power_absorbed)" \
             near "$(value several.json power_absorbed)" "$(value one.json power_absorbed)"
         check "$name on $n ranks: other light on faces" same_faces one.csv several.csv
