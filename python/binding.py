@@ -65,7 +65,7 @@ struct RadSolveOptions { double tolerance; int iterations; enum RadClosure closu
 RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options);
 void radReleaseSolution(RadSolution solution);
 int radSolve(RadSolution solution);
-struct RadChoice { double scale; int no_links, worse; uint64_t rays; double seconds; };
+struct RadChoice { double scale; int no_links; uint64_t rays; double seconds; };
 struct RadChoiceOptions { int keep_links; ...; };
 RadSolution radSolveScene(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options,
                           const struct RadChoiceOptions *wishes, struct RadChoice *choice);

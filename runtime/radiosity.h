@@ -488,7 +488,6 @@ RAD_API int radSolve(RadSolution solution);
 struct RadChoice {
     double scale;   /* of the oracle's thresholds, as radScaleOracle has it */
     int no_links;   /* 1: none, as RadSolveOptions has it; then scale means nothing */
-    int worse;      /* 1: finer links were made, and did not stay: measured, they were worse */
     uint64_t rays;  /* of measuring, and of solutions that were given up */
     double seconds; /* for these */
 };

@@ -22,7 +22,7 @@ class Solution:
     whole as shares of the reflected light (struct RadErrorReport): .l1_faces and .power have .value and .low and
     .high, a 95 % interval; where .unseen (W) is above 0 no particle was reflected: no more light than that is, and
     .high is inf. All three are None until the error is measured. links: how many were made, where that was chosen
-    (struct RadChoice of radiosity.h): .no_links is 1 where there are none, .worse where finer ones did not stay, .scale the thresholds' scale.
+    (struct RadChoice of radiosity.h): .no_links is 1 where there are none, .scale the thresholds' scale.
     """
 
     def __init__(self, device, handle, count):

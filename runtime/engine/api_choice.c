@@ -20,13 +20,8 @@
  * cupboard and its wall, finer ones may know nearly all of it. If what they could spare at the most
  * takes longer than they do, which is TRIED times what the coarse ones did, they are made. So
  * nobody waits more than about twice as long as for the better way, whatever e falls with. Finer
- * links are solved for anew: what was given up coarsely is not missed then.
- *
- * Where leaves are too wide for their light, as in a gap that is narrower than they are, finer
- * links may be farther off than coarse ones. They are measured, too, by as few particles: where
- * they are surely worse the coarse ones come back, and where the better of both are off by more
- * than all they say there are none. All follows from counts, so the choice is the same on any
- * machine, and on any number of them. [Derived here]
+ * links are solved for anew: what was given up coarsely is not missed then. All follows from
+ * counts, so the choice is the same on any machine, and on any number of them. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -48,9 +43,6 @@ static const double TRIED = 8;
 /* rays of links that take as long as one of a particle that is counted on quarters of leaves: .3
  * and .6 us */
 static const double PARTICLE = 2;
-/* standard errors of each. Finer links are surely worse where they are farther off than coarse ones
- * by more: one chance in 400 or fewer [normal, of the sum of two] */
-static const double WORSE = 2;
 static const double FEW = 1e5; /* pairs: .2 seconds of one processor */
 
 /* What a choice is made for, and where it stands. */
@@ -100,13 +92,11 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
     return status;
 }
 
-/* By so many rays; 0: as many as befit the solution. Returns 0, or -1 with the solution released.
- */
-static int measure(struct choosing *x, RadSolution solution, uint64_t rays,
-                   struct RadPlaces *places)
+/* Returns 0, or -1 with the solution released. */
+static int measure(struct choosing *x, RadSolution solution, struct RadPlaces *places)
 {
     const double start = seconds();
-    if (radMeasurePlaces(solution, rays, places) < 0) {
+    if (radMeasurePlaces(solution, 0, places) < 0) {
         radReleaseSolution(solution);
         return -1;
     }
@@ -134,20 +124,11 @@ static int solve_without(struct choosing *x, double *pairs, RadSolution *solutio
     x->so_far.no_links = 1;
     const int status = solve(x, 1, 0, solution);
     x->so_far.no_links = 0;
-    if (status < 0 || measure(x, *solution, 0, &p) < 0)
+    if (status < 0 || measure(x, *solution, &p) < 0)
         return -1;
     const double faces = rays_for_faces(&p);
     *pairs = fmax(QUARTER * (rays_for_places(&p) - faces), LITTLE * faces) / PAIR;
     return 0;
-}
-
-/* May there be none, as far as the caller is concerned? */
-static int may_be_none(const struct choosing *x)
-{
-    const struct RadSolveOptions *o = &x->options;
-    return !x->wishes.keep_links && o->closure == RAD_CLOSURE_NONE
-           && o->solver == RAD_SOLVER_GAUSS_SEIDEL && !(o->tolerance > 0)
-           && o->basis == RAD_BASIS_LINEAR;
 }
 
 /* With coarse links, or with none where these cost too much. One solution is held at a time, as of
@@ -155,9 +136,13 @@ static int may_be_none(const struct choosing *x)
  * made again where these cost too much. Returns 0, or -1. */
 static int solve_coarse(struct choosing *x, RadSolution *solution)
 {
+    const struct RadSolveOptions *o = &x->options;
+    const int may_be_none = !x->wishes.keep_links && o->closure == RAD_CLOSURE_NONE
+                            && o->solver == RAD_SOLVER_GAUSS_SEIDEL && !(o->tolerance > 0)
+                            && o->basis == RAD_BASIS_LINEAR;
     struct RadReport r;
     double pairs;
-    int status = solve(x, COARSE, may_be_none(x) ? FEW : 0, solution);
+    int status = solve(x, COARSE, may_be_none ? FEW : 0, solution);
     if (status <= 0)
         return status;
     if (solve_without(x, &pairs, solution) < 0)
@@ -188,42 +173,6 @@ static int is_finer_better(const struct RadPlaces *p, const struct RadReport *co
     return p->links * FINER * rays < p->ray || PARTICLE * spared > cost;
 }
 
-/* The most that the squared error of links may be. What chance would make of the particles has been
- * taken off it, and those of a sequence may have no noise at all: the links of a model in a box of
- * lamps come out at -.014, so much below 0 by 45 standard errors. */
-static double most_off(const struct RadPlaces *p)
-{
-    return fmax(p->links, 0) + WORSE * p->deviation + (p->rays > 0 ? p->ray / (double)p->rays : 0);
-}
-
-static double least_off(const struct RadPlaces *p)
-{
-    return p->links - WORSE * p->deviation;
-}
-
-/* Finer links stay unless they are worse than coarse ones, or off by more than what they say.
- * Returns 0, or -1. */
-static int keep_better(struct choosing *x, const struct RadPlaces *coarse, RadSolution *solution)
-{
-    struct RadPlaces finer;
-    struct RadReport r;
-    if (measure(x, *solution, RAD_PLACES_LEAST, &finer) < 0)
-        return -1;
-    (*solution)->places = (struct ray_split){.rays = 0}; /* of that mending asks nobody */
-    const int worse = least_off(&finer) > most_off(coarse),
-              none = may_be_none(x) && least_off(worse ? coarse : &finer) > 1;
-    if (!worse && !none)
-        return 0;
-    radGetReport(*solution, &r);
-    x->so_far.rays += r.rays;
-    x->so_far.seconds += r.seconds.build + r.seconds.refine + r.seconds.iterate;
-    radReleaseSolution(*solution);
-    x->linked = 0;
-    x->so_far.no_links = none;
-    x->so_far.worse = 1;
-    return solve(x, none ? 1 : COARSE, 0, solution);
-}
-
 /* Returns 0, or -1. */
 static int choose(struct choosing *x, RadSolution *solution)
 {
@@ -234,7 +183,7 @@ static int choose(struct choosing *x, RadSolution *solution)
         return -1;
     if (x->so_far.no_links)
         return 0;
-    if (measure(x, *solution, 0, &p) < 0)
+    if (measure(x, *solution, &p) < 0)
         return -1;
     radGetReport(*solution, &r);
     if (!is_finer_better(&p, &r))
@@ -243,7 +192,7 @@ static int choose(struct choosing *x, RadSolution *solution)
     x->so_far.seconds = seconds() - start;
     radReleaseSolution(*solution);
     x->linked = fmax(p.links, 0) + p.deviation;
-    return solve(x, 1, 0, solution) < 0 ? -1 : keep_better(x, &p, solution);
+    return solve(x, 1, 0, solution);
 }
 
 RadSolution radSolveScene(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options,

@@ -69,28 +69,19 @@ int coarse_first_solve(struct coarse_first *c, struct solved *s, const struct op
     return solve_at(c, s, &point, scene, oracle, how);
 }
 
-static const char *reason(const struct RadChoice *choice)
-{
-    if (choice->no_links)
-        return choice->worse ? "they were off by more than all they say"
-                             : "they would cost more than the particles they spare";
-    if (choice->worse)
-        return "finer links were farther off";
-    return choice->scale > 1 ? "finer links would cost more than the particles they spare"
-                             : "coarser ones would cost more particles than they spare";
-}
-
 void coarse_first_print(const struct coarse_first *c)
 {
     const struct RadChoice *choice = &c->choice;
-    if (!c->chosen)
-        return;
-    if (choice->no_links)
-        printf("scale     no links: %s (%.3g rays to find out)\n", reason(choice),
+    if (choice->no_links && c->chosen)
+        printf("scale     no links: they would cost more than the particles they spare (%.3g rays "
+               "to find out)\n",
                (double)choice->rays);
-    else
+    else if (c->chosen)
         printf("scale     thresholds times %g: %s (%.3g rays and %.2f s to find out)\n",
-               choice->scale, reason(choice), (double)choice->rays, choice->seconds);
+               choice->scale,
+               choice->scale > 1 ? "finer links would cost more than the particles they spare"
+                                 : "coarser ones would cost more particles than they spare",
+               (double)choice->rays, choice->seconds);
 }
 
 json_t *coarse_first_json(const struct coarse_first *c)

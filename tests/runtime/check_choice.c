@@ -249,61 +249,6 @@ START_TEST(test_links_do_not_pay)
 }
 END_TEST
 
-/* A closed gap, narrower than leaves are wide, with a lamp on one edge: links are far off. In
- * `gone` finer links are nearer the light than coarse ones, and off by more than all they say; in
- * `back` they are farther off, and coarse ones are not so bad. */
-struct gap {
-    double size[3], reflects[6], emits[6];
-    int none;
-};
-static const struct gap gaps[] = {
-    {{1, 1, 0.01}, {0.6, 0.9, 0.9, 0.9, 0.2, 0.3}, {0, 0, 0, 0, 1000, 0}, 1},
-    {{3, 0.02, 2}, {0.4, 0.4, 0.85, 0.7, 0.2, 0.4}, {0, 0, 0, 0, 50, 0}, 0},
-};
-
-static RadScene open_gap(RadDevice device, const struct gap *gap)
-{
-    static struct room r;
-    struct RadMaterial materials[6];
-    memset(&r, 0, sizeof r);
-    put_box(&r, (double[3]){0, 0, 0}, gap->size, 1);
-    for (uint32_t i = 0; i < 6; i++) {
-        const double rho = gap->reflects[i], e = gap->emits[i];
-        materials[i] = (struct RadMaterial){{rho, rho, rho}, {e, e, e}, 0};
-        r.material[i] = i;
-    }
-    const struct RadPolygons polygons = {.positions = r.at[0],
-                                         .position_count = r.corners,
-                                         .indices = r.corner[0],
-                                         .size = 4,
-                                         .materials = r.material,
-                                         .count = r.faces};
-    RadScene scene = radNewScene(device);
-    ck_assert_int_eq(radSetSceneMaterials(scene, materials, 6), 0);
-    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &polygons), 0);
-    ck_assert_msg(radCommitScene(scene) == 0, "%s", radGetDeviceErrorMessage(device));
-    return scene;
-}
-
-START_TEST(test_wrong_links)
-{
-    RadDevice device = radNewDevice(NULL);
-    const struct asked a = {device, open_gap(device, &gaps[_i]), open_oracle(device)};
-    struct told told = {0};
-    const struct RadChoiceOptions wishes = {.begin = begin, .user = &told};
-    struct RadChoice choice;
-    RadSolution solution = radSolveScene(a.scene, a.oracle, &linear, &wishes, &choice);
-    ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(device));
-    ck_assert_int_eq(told.times, 3);
-    ck_assert_int_eq(choice.no_links, gaps[_i].none);
-    ck_assert_int_eq(choice.worse, 1);
-    if (!choice.no_links)
-        ck_assert_double_eq(choice.scale, 16);
-    radReleaseSolution(solution);
-    release(&a);
-}
-END_TEST
-
 START_TEST(test_refused)
 {
     const struct asked a = ask(0);
@@ -332,7 +277,6 @@ int main(void)
     tcase_add_test(t, test_scale);
     tcase_add_test(t, test_links_pay);
     tcase_add_test(t, test_links_do_not_pay);
-    tcase_add_loop_test(t, test_wrong_links, 0, 2);
     tcase_add_test(t, test_refused);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
