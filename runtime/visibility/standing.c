@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "geometry.h"
+#include "hierarchy/reach.h"
 #include "kernel/constants.h"
 #include "visibility/standing.h"
 
@@ -64,23 +65,22 @@ static struct prism prism_over(const struct element *e, double off)
 static int stays_out(const struct prism *p, const struct element *face, double off)
 {
     for (int i = 0; i < p->planes; i++) {
-        double deepest = INFINITY;
-        for (int j = 0; j < face->vertices; j++)
-            deepest = fmin(deepest, height3(face->vertex[j], p->on[i], p->normal[i]));
-        if (deepest >= -off)
+        double high = -INFINITY, low = INFINITY;
+        polygon_reach((const double(*)[3])face->vertex, face->vertices, p->on[i], p->normal[i],
+                      &high, &low);
+        if (low >= -off)
             return 1;
     }
     return 0;
 }
 
 /* Does a box? Then all faces in it do: what they may reach in is left for rounding. */
-static int box_stays_out(const struct prism *p, const double low[3], const double high[3])
+static int box_stays_out(const struct prism *p, const double (*box)[3])
 {
     for (int i = 0; i < p->planes; i++) {
-        double deepest = 0;
-        for (int k = 0; k < 3; k++)
-            deepest += p->normal[i][k] * ((p->normal[i][k] > 0 ? low : high)[k] - p->on[i][k]);
-        if (deepest >= 0)
+        double high, low;
+        box_reach(box, p->on[i], p->normal[i], &high, &low);
+        if (low >= 0)
             return 1;
     }
     return 0;
@@ -94,7 +94,7 @@ static int reaches_in(const struct hierarchy *h, const struct prism *p, double o
     for (int k = 0; k < 3 && !e->vertices; k++)
         if (e->vertex[0][k] > p->high[k] || e->vertex[1][k] < p->low[k])
             return 0;
-    if (!e->vertices && box_stays_out(p, e->vertex[0], e->vertex[1]))
+    if (!e->vertices && box_stays_out(p, (const double(*)[3])e->vertex))
         return 0;
     for (uint32_t c = 0; c < e->children; c++)
         if (reaches_in(h, p, off, e->child + c))
