@@ -54,7 +54,7 @@ one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - le
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)paths_for(d, p, goal);/(void)goal;/ | runtime/check_dim_faces
 weak lamps are gathered in a few | runtime/particles/particles.c | s/f.least = fmin(tally->least, tally->carried.light.)/f.least = tally->least/ | runtime/check_dim_faces
-tiles are as dim as they are small | runtime/engine/dim_faces.c | s/p->told = doubt_of(d, doubt, p) <= DIM_GOAL/p->told = doubt_of(d, doubt, p) < 0/ | runtime/check_dim_faces
+tiles are as dim as they are small | runtime/engine/dim_faces.c | s/p->told = doubt_of(d, faces.doubt, p) <= DIM_GOAL/p->told = doubt_of(d, faces.doubt, p) < 0/ | runtime/check_dim_faces
 small faces that no ray asks are known | runtime/engine/dim_faces.c | s/if (p->asked .. p->told)/if (p->asked < 2)/ | runtime/check_dim_faces
 what nobody knows is not wrong | solver/commands/error_summary.c | s/m->mended \&\& r->unsure > 0)/0 \&\& r->unsure > 0)/ | solver/check_summary
 paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces

@@ -113,27 +113,8 @@ static void tell_doubt(const struct light_operator *op, uint32_t bands, double *
     ranks_add(op->shares.ranks, RANKS_PARTICLES, doubt, (size_t)built * bands);
 }
 
-/* What mending leaves of the error of faces: [built * bands], the caller's, as mend_clusters.h has
- * it. NULL when out of memory. */
-static double *doubt_of_faces(const struct dim_faces *d, const struct tally *tally)
-{
-    const struct solve *s = d->solve;
-    const size_t values = (size_t)s->hierarchy.built * s->problem.bands + 1;
-    double *irradiance = calloc(values, sizeof *irradiance), *doubt = calloc(values, sizeof *doubt);
-    const int failed =
-        ranks_any(d->tracer->ranks, !irradiance || !doubt)
-        || mend_faces(&s->operator, tally, s->state.irradiance, irradiance, doubt) < 0;
-    free(irradiance);
-    if (failed) {
-        free(doubt);
-        return NULL;
-    }
-    tell_doubt(&s->operator, s->problem.bands, doubt);
-    return doubt;
-}
-
-/* The standard error of the polygon's light by that, as a share of it: of one cluster as a rule,
- * its faces are off together. */
+/* The standard error of the polygon's light by what mending leaves of that of its faces, as a share
+ * of it: of one cluster as a rule, they are off together. */
 static double doubt_of(const struct dim_faces *d, const double *doubt, const struct dim_polygon *p)
 {
     const struct tracer *t = d->tracer;
@@ -153,51 +134,59 @@ static double doubt_of(const struct dim_faces *d, const double *doubt, const str
 static int count_unasked(const struct dim_faces *d, const struct tally *tally,
                          struct dim_count *count)
 {
-    double *doubt = d->count > 0 ? doubt_of_faces(d, tally) : NULL;
-    const int failed = d->count > 0 && !doubt;
+    const struct solve *s = d->solve;
+    struct mended_faces faces = {NULL, NULL};
+    if (d->count == 0)
+        return 0;
+    const int failed = mend_faces(&s->operator, tally, s->state.irradiance, &faces) < 0;
+    if (!failed)
+        tell_doubt(&s->operator, s->problem.bands, faces.doubt);
     for (uint32_t j = 0; j < d->count && !failed; j++) {
         struct dim_polygon *p = &d->polygon[j];
-        p->told = doubt_of(d, doubt, p) <= DIM_GOAL;
+        p->told = doubt_of(d, faces.doubt, p) <= DIM_GOAL;
         if (p->asked || p->told)
             continue;
         count->unsure++;
         count->area += p->area;
     }
-    free(doubt);
+    mended_faces_close(&faces);
     return failed ? -1 : 0;
 }
 
-/* Only those that may be asked are kept. */
-static void keep_asked(struct dim_faces *d)
+static int is_dim(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    return !dim_is_known(d, p->light, p->variance, d->sure);
+}
+
+static int is_asked(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    (void)d;
+    return p->asked;
+}
+
+/* Others are forgotten. */
+static void keep(struct dim_faces *d,
+                 int (*stays)(const struct dim_faces *, const struct dim_polygon *))
 {
     uint32_t kept = 0;
     for (uint32_t p = 0; p < d->parts; p++) { /* places rise with p */
         if (d->of[p] == NOT_DIM)
             continue;
         const struct dim_polygon at = d->polygon[d->of[p]];
-        d->of[p] = at.asked ? kept : NOT_DIM;
-        if (at.asked)
+        d->of[p] = stays(d, &at) ? kept : NOT_DIM;
+        if (d->of[p] != NOT_DIM)
             d->polygon[kept++] = at;
     }
     d->count = kept;
 }
 
-/* Those that are dim; the others are forgotten. Returns 0, or -1 when out of memory. */
-static int keep_dim(struct dim_faces *d, const struct tally *tally)
+/* What is known of each by now. Returns 0, or -1 when out of memory. */
+static int weigh_all(struct dim_faces *d, const struct tally *tally)
 {
-    uint32_t kept = 0;
     double *sum = count_polygons(d, tally);
     const int failed = !sum;
-    for (uint32_t p = 0; p < d->parts && sum; p++) {
-        if (d->of[p] == NOT_DIM)
-            continue;
-        struct dim_polygon at = d->polygon[d->of[p]]; /* places rise with p */
-        weigh(d, tally, &sum[(size_t)d->of[p] * REPLICATES], &at);
-        d->of[p] = dim_is_known(d, at.light, at.variance, d->sure) ? NOT_DIM : kept;
-        if (d->of[p] != NOT_DIM)
-            d->polygon[kept++] = at;
-    }
-    d->count = kept;
+    for (size_t j = 0; j < d->count && sum; j++)
+        weigh(d, tally, &sum[j * REPLICATES], &d->polygon[j]);
     free(sum);
     return failed ? -1 : 0;
 }
@@ -433,9 +422,10 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
         count->large = d.count;
         d.shared = size != DIM_SMALL_ONES ? shared_doubt(light, variance) : 0;
         d.sure = size != DIM_SMALL_ONES ? sure_of(d.count) : DIM_GOAL;
-        failed = keep_dim(&d, tally) < 0;
+        failed = weigh_all(&d, tally) < 0;
+        keep(&d, is_dim);
         failed = failed || (size == DIM_SMALL_ONES && count_unasked(&d, tally, count) < 0);
-        keep_asked(&d);
+        keep(&d, is_asked);
         d.believed = believed(&d, tally);
         failed = failed || (d.count > 0 && quarter_light_open(&d.light, s) < 0);
         for (uint32_t i = 0; i < t->hierarchy->face_count && !failed; i++)

@@ -372,11 +372,22 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
 }
 
 int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
-               double *irradiance, double *doubt)
+               struct mended_faces *faces)
 {
+    const size_t values = (size_t)op->hierarchy->built * tally->bands + 1;
     struct mend_sums sums;
+    faces->irradiance = calloc(values, sizeof *faces->irradiance);
+    faces->doubt = calloc(values, sizeof *faces->doubt);
+    if (ranks_any(op->shares.ranks, !faces->irradiance || !faces->doubt))
+        return -1;
     const int failed = mend_sums_open(&sums, op, tally, MEND_FACES, light) < 0
-                       || mend_clusters(&sums, irradiance, doubt) < 0;
+                       || mend_clusters(&sums, faces->irradiance, faces->doubt) < 0;
     mend_sums_close(&sums);
     return failed ? -1 : 0;
+}
+
+void mended_faces_close(struct mended_faces *faces)
+{
+    free(faces->irradiance);
+    free(faces->doubt);
 }

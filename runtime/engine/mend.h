@@ -11,9 +11,17 @@
  * leaves. Returns 0, or -1 when out of memory. */
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance);
 
-/* The same of clusters and faces as wholes: light, by the links, stays; irradiance and doubt
- * (mend_clusters.h): [built * bands], those of this rank's. */
+/* The same of clusters and faces as wholes: [built * bands], of this rank's. doubt:
+ * mend_clusters.h.
+ */
+struct mended_faces {
+    double *irradiance, *doubt;
+};
+
+/* By the light of links, which stays. Returns 0, or -1 on all ranks when any is out of memory;
+ * either way mended_faces_close. */
 int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
-               double *irradiance, double *doubt);
+               struct mended_faces *faces);
+void mended_faces_close(struct mended_faces *faces);
 
 #endif

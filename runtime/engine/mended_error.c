@@ -28,7 +28,7 @@
 /* Over this rank's faces, or all where it has the counts of all: what they reflect, and of small
  * polygons the mean |e| (W). */
 static void sum_errors(const struct solve *s, const struct tally *tally, const double *area,
-                       const double *irradiance, const double *doubt, double sums[2])
+                       const struct mended_faces *faces, double sums[2])
 {
     const struct hierarchy *h = &s->hierarchy;
     const uint32_t bands = s->problem.bands;
@@ -38,9 +38,11 @@ static void sum_errors(const struct solve *s, const struct tally *tally, const d
         const int large = area[h->faces[f].input] > least;
         for (uint32_t k = 0; k < bands && tally_holds(tally, f); k++) {
             const double reflected = s->problem.reflectance[(size_t)f * bands + k]
-                                     * h->elements[e].area * irradiance[(size_t)e * bands + k];
+                                     * h->elements[e].area
+                                     * faces->irradiance[(size_t)e * bands + k];
             sums[0] += reflected;
-            sums[1] += large ? 0 : reflected * sqrt(2 / LAMBERT_PI * doubt[(size_t)e * bands + k]);
+            sums[1] +=
+                large ? 0 : reflected * sqrt(2 / LAMBERT_PI * faces->doubt[(size_t)e * bands + k]);
         }
     }
 }
@@ -49,20 +51,17 @@ int mended_error_find(const struct solve *s, const struct tally *tally,
                       const struct face_noise *noise, double *error)
 {
     struct ranks *ranks = s->problem.options.ranks;
-    const size_t values = (size_t)s->hierarchy.built * s->problem.bands + 1;
-    double *irradiance = calloc(values, sizeof *irradiance), *doubt = calloc(values, sizeof *doubt),
-           *area = polygon_areas(&s->problem, &s->hierarchy), sums[2] = {0, 0};
+    struct mended_faces faces = {NULL, NULL};
+    double *area = polygon_areas(&s->problem, &s->hierarchy), sums[2] = {0, 0};
     const int failed =
-        ranks_any(ranks, !irradiance || !doubt || !area)
-        || mend_faces(&s->operator, tally, s->state.irradiance, irradiance, doubt) < 0;
+        ranks_any(ranks, !area) || mend_faces(&s->operator, tally, s->state.irradiance, &faces) < 0;
     if (!failed) {
-        sum_errors(s, tally, area, irradiance, doubt, sums);
+        sum_errors(s, tally, area, &faces, sums);
         if (tally->quarters)
             ranks_add(ranks, RANKS_PARTICLES, sums, 2);
         *error = fmin(noise->all, noise->large + (sums[0] > 0 ? sums[1] / sums[0] : 0));
     }
-    free(irradiance);
-    free(doubt);
+    mended_faces_close(&faces);
     free(area);
     return failed ? -1 : 0;
 }

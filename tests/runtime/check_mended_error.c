@@ -29,10 +29,10 @@ static struct means mended(int n, int particles, double target, uint64_t seed)
         struct solve s;
         struct tally y;
         struct face_noise noise;
+        struct mended_faces after;
         double said, *truth = tiled_open(&scene, &s, n, &chance);
         const size_t values = (size_t)s.hierarchy.count * scene.bands;
-        double *links = calloc(values, sizeof *links), *after = calloc(values, sizeof *after),
-               *doubt = calloc(values, sizeof *doubt);
+        double *links = calloc(values, sizeof *links);
         struct tracer t = tracer_over(&s, 1);
         traced(&y, &t, i + 1, particles * (int)scene.input_count);
         spoil(&s, truth, links, 0, &chance);
@@ -41,14 +41,13 @@ static struct means mended(int n, int particles, double target, uint64_t seed)
         memcpy(s.state.irradiance, links, values * sizeof *links);
         ck_assert_int_eq(mended_error_find(&s, &y, &noise, &said), 0);
         ck_assert_mem_eq(s.state.irradiance, links, values * sizeof *links);
-        ck_assert_int_eq(mend_faces(&s.operator, & y, links, after, doubt), 0);
+        ck_assert_int_eq(mend_faces(&s.operator, & y, links, &after), 0);
         m.before += true_errors(&s, truth, links).l1 / RUNS;
-        m.after += true_errors(&s, truth, after).l1 / RUNS;
+        m.after += true_errors(&s, truth, after.irradiance).l1 / RUNS;
         m.said += said / RUNS;
         m.noise += noise.all / RUNS;
         tally_close(&y);
-        free(after);
-        free(doubt);
+        mended_faces_close(&after);
         close_known(&s, &scene, &t, truth, links);
     }
     if (thorough())
@@ -210,9 +209,10 @@ static void check_sum(double many, uint64_t seed)
     struct scene scene;
     struct solve s;
     struct tally y;
+    struct mended_faces after;
     double *truth = tiled_open(&scene, &s, 8, &chance), variance;
     const size_t values = (size_t)s.hierarchy.count * scene.bands;
-    double *links = calloc(values, sizeof *links), *after = calloc(values, sizeof *after);
+    double *links = calloc(values, sizeof *links);
     struct tracer t = tracer_over(&s, 1);
     traced(&y, &t, seed, 16 * (int)scene.face_count);
     const double counted = reflected_light(&s.problem, &y, &variance), noise = sqrt(variance);
@@ -221,14 +221,14 @@ static void check_sum(double many, uint64_t seed)
     tilt(&s, truth, 1, links);
     const double whole = sum_of(&s, links) - right;
     tilt(&s, truth, whole > 1e-9 * right ? many * noise / whole : 0, links);
-    ck_assert_int_eq(mend_faces(&s.operator, & y, links, after, NULL), 0);
-    const double off = fabs(sum_of(&s, after) - counted),
+    ck_assert_int_eq(mend_faces(&s.operator, & y, links, &after), 0);
+    const double off = fabs(sum_of(&s, after.irradiance) - counted),
                  linked = fabs(sum_of(&s, links) - counted),
                  evidence = sqrt(1 + MEND_EVIDENCE * sqrt(2)) * noise;
     ck_assert_double_le(off, (linked > evidence ? noise * noise / linked : evidence) * (1 + 1e-9)
                                  + 1e-9 * counted);
     tally_close(&y);
-    free(after);
+    mended_faces_close(&after);
     close_known(&s, &scene, &t, truth, links);
 }
 
