@@ -72,6 +72,25 @@ START_TEST(test_white)
 }
 END_TEST
 
+/* Of many tallies: the mean of what each says is reflected (W), how far these differ, and what
+ * their replicates say of that (W2). */
+struct spread {
+    double mean, square, told;
+};
+
+static void add_tally(struct spread *x, const struct problem *p, const struct tally *y, int of)
+{
+    double noise, found = reflected_light(p, y, &noise);
+    x->mean += found / of;
+    x->square += found * found / of;
+    x->told += noise / of;
+}
+
+static double variance_of(const struct spread *x)
+{
+    return x->square - x->mean * x->mean;
+}
+
 /* A dark floor, then without one wall, too: the mean of many balanced tallies is that of as many
  * others, they differ less from each other, and by as much as replicates say. */
 START_TEST(test_mean)
@@ -79,30 +98,25 @@ START_TEST(test_mean)
     struct scene scene;
     struct solve s;
     struct tracer t;
-    double sum[2] = {0, 0}, square[2] = {0, 0}, told = 0;
+    struct spread before = {0, 0, 0}, after = {0, 0, 0};
     lit_room(&scene, 0.95, 0.3, _i);
     open_tracer(&s, &t, &scene);
     for (uint64_t i = 0; i < SETS; i++) {
         struct tally y;
-        double noise;
         count(&y, &t, i + 1, FEW);
-        for (int balanced = 0; balanced < 2; balanced++) {
-            if (balanced)
-                power_balance(&y, &t);
-            double found = reflected_light(&s.problem, &y, &noise);
-            sum[balanced] += found / SETS;
-            square[balanced] += found * found / SETS;
-        }
-        told += noise / SETS;
+        add_tally(&before, &s.problem, &y, SETS);
+        power_balance(&y, &t);
+        add_tally(&after, &s.problem, &y, SETS);
         tally_close(&y);
     }
-    const double plain = square[0] - sum[0] * sum[0], less = square[1] - sum[1] * sum[1];
+    const double plain = variance_of(&before), less = variance_of(&after);
     printf("%s: %.5g +- %.2g W, balanced %.5g +- %.2g, replicates say %.2g\n",
-           _i ? "open" : "dark floor", sum[0], sqrt(plain), sum[1], sqrt(less), sqrt(told));
-    ck_assert_double_lt(fabs(sum[1] - sum[0]), 4 * sqrt((plain + less) / SETS));
+           _i ? "open" : "dark floor", before.mean, sqrt(plain), after.mean, sqrt(less),
+           sqrt(after.told));
+    ck_assert_double_lt(fabs(after.mean - before.mean), 4 * sqrt((plain + less) / SETS));
     ck_assert_double_lt(less, (_i ? 1 : 0.8) * plain);
-    ck_assert_double_gt(told, 0.7 * less);
-    ck_assert_double_lt(told, 1.4 * less);
+    ck_assert_double_gt(after.told, 0.7 * less);
+    ck_assert_double_lt(after.told, 1.4 * less);
     tracer_close(&t);
     solve_close(&s);
     made_close(&scene);
@@ -139,23 +153,19 @@ START_TEST(test_told)
     struct scene scene;
     struct solve s;
     struct tracer t;
-    double sum = 0, square = 0, told = 0;
+    struct spread x = {0, 0, 0};
     slotted_rooms(&scene);
     open_tracer(&s, &t, &scene);
     for (uint64_t i = 0; i < MANY; i++) {
         struct tally y;
-        double noise;
         count(&y, &t, i + 1, 4 * FEW);
         power_balance(&y, &t);
-        const double found = reflected_light(&s.problem, &y, &noise);
-        sum += found / MANY;
-        square += found * found / MANY;
-        told += noise / MANY;
+        add_tally(&x, &s.problem, &y, MANY);
         tally_close(&y);
     }
-    printf("slot: %.5g +- %.2g W, replicates say %.3f of that\n", sum, sqrt(square - sum * sum),
-           sqrt(told / (square - sum * sum)));
-    ck_assert_double_gt(told, 0.95 * (square - sum * sum));
+    printf("slot: %.5g +- %.2g W, replicates say %.3f of that\n", x.mean, sqrt(variance_of(&x)),
+           sqrt(x.told / variance_of(&x)));
+    ck_assert_double_gt(x.told, 0.95 * variance_of(&x));
     tracer_close(&t);
     solve_close(&s);
     made_close(&scene);
