@@ -30,8 +30,7 @@ struct cell {
 
 /* radius^2 over area. Above it a cell is halved: rectangles from 1 : 7.9 on, and triangles whose
  * height is 4.5 times their base. It is .5 of a square and at most 1.7 of triangles of 30 degrees
- * and more. Chosen: squares beside a strip have so few times as many cells beside each other then
- */
+ * and more. Chosen: squares beside a strip have a few times as many cells then, no more */
 static const double LONG = 2;
 
 enum { CELLS = 64 }; /* that are kept, of both elements; of cells beyond them all is made anew */

@@ -63,8 +63,7 @@ static void fill_faces(const struct mend_sums *m, const double *irradiance)
     }
 }
 
-/* Once every rank has all links, each still has the counts of its own faces alone, and tells them.
- */
+/* Once all ranks have all links, each still has counts of its own faces alone, and tells them. */
 static void tell_counts(const struct mend_sums *m)
 {
     struct ranks *ranks = m->op->shares.ranks;

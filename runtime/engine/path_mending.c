@@ -9,9 +9,9 @@
  * these would take more rays than there are: of a meadow, where most polygons are met by none of
  * them, all rays tell next to nothing. But what is left has to be enough for paths to mend by.
  *
- * They go by a sequence, whose noise falls faster than with the
- * root of the number: where the first block says that they are cheaper, but not by how much, and
- * more are a small part of what is to come, there is a second look.
+ * They go by a sequence, whose noise falls faster than with the root of the number: where the first
+ * block says that they are cheaper, but not by how much, and more are a small part of what is to
+ * come, there is a second look.
  *
  * Paths that hardly ever find the light, as of a lamp behind two bends, may have found none and
  * seem to have no noise. So what they say of all light together is held against the particles:
