@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/hierarchy.h"
+#include "hierarchy/flat_clusters.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "kernel/surface.h"
@@ -206,7 +207,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     h->order = t.order;
     t.order = NULL;
     add_dark(h, held);
-    result = 0;
+    result = flat_clusters_find(h);
 done:
     free(share);
     bvh_free(&t);
@@ -325,5 +326,6 @@ void hierarchy_free(struct hierarchy *h)
     free(h->range);
     free(h->solid);
     free(h->outer);
+    free(h->plane);
     memset(h, 0, sizeof *h);
 }

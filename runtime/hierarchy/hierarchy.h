@@ -67,6 +67,9 @@ struct hierarchy {
     /* [built]: 1: all that an element holds has the whole scene in front of it, and so stands in no
      * shaft (visibility/outer_walls.h). NULL: nobody knows */
     unsigned char *outer;
+    /* [built]: the element whose plane all faces of this one lie in; 0: there is none
+     * (flat_clusters.h) */
+    uint32_t *plane;
     double flat; /* with groups: how far from their planes their faces may reach (m) */
 };
 

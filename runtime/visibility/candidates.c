@@ -92,8 +92,32 @@ int candidates_meets(const struct hierarchy *h, const struct shaft *shaft, doubl
            && !(h->solid && on_one_side(shaft, offset, e));
 }
 
-/* Returns 0, or -1 when who is told wants no more. */
-static int walk_shaft(const struct walk *w, uint32_t index)
+/* Is all of the shaft on one side of a plane that all faces of a cluster lie in, so that it meets
+ * none of them? As shaft_side, but for how far these may be apart from that plane; and where an end
+ * may lie flat on one of them, each is asked. */
+static int runs_beside(const struct walk *w, const struct element *plane)
+{
+    const struct shaft *shaft = w->shaft;
+    const double apart = SHAFT_SLACK * w->offset;
+    double low = INFINITY, high = -INFINITY;
+    for (int end = 0; end < 2; end++) {
+        double nearest = INFINITY, across[3];
+        for (int i = 0; i < shaft->points[end]; i++) {
+            const double h = height3(shaft->end[end][i], plane->vertex[0], plane->normal);
+            low = h < low ? h : low;
+            high = h > high ? h : high;
+            nearest = fabs(h) < nearest ? fabs(h) : nearest;
+        }
+        cross3(across, plane->normal, shaft->facing[end]);
+        if (nearest < shaft->margin + apart && dot3(across, across) < 2 * SHAFT_PARALLEL)
+            return 0;
+    }
+    return low >= apart - shaft->touch || high <= shaft->touch - apart;
+}
+
+/* Returns 0, or -1 when who is told wants no more. `flat`: a cluster above it is in a plane, which
+ * crosses the shaft. */
+static int walk_shaft(const struct walk *w, uint32_t index, int flat)
 {
     const struct hierarchy *h = w->h;
     const struct element *e = &h->elements[index];
@@ -112,8 +136,13 @@ static int walk_shaft(const struct walk *w, uint32_t index)
     if (shaft_misses_box(w->shaft, e->vertices ? low : e->vertex[0],
                          e->vertices ? high : e->vertex[1]))
         return 0;
+    if (!flat && h->plane && h->plane[index]) {
+        if (runs_beside(w, &h->elements[h->plane[index]]))
+            return 0;
+        flat = 1;
+    }
     for (uint32_t c = 0; c < e->children; c++)
-        if (walk_shaft(w, e->child + c) < 0)
+        if (walk_shaft(w, e->child + c, flat) < 0)
             return -1;
     return 0;
 }
@@ -129,7 +158,7 @@ int candidates_walk(const struct hierarchy *h, const struct solids *solids,
                           shaft->points[end], shaft->slack - offset);
     if (w.behind[0] || w.behind[1])
         w.of = solids->of;
-    return walk_shaft(&w, 0);
+    return walk_shaft(&w, 0, 0);
 }
 
 struct list {
