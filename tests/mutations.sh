@@ -181,6 +181,7 @@ what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->e
 clusters keep what they were | runtime/hierarchy/children_first.c | s/e = h->built; e-- > 0;/e = 0; e-- > 1;/ | runtime/check_measured_error runtime/check_transport
 halves are added | runtime/engine/face_error.c | s/x\[i + step\] = a - b/x[i + step] = a + b/ | runtime/check_measured_error
 coarse links that know nothing | runtime/engine/api_choice.c | s/PARTICLE \* spared/0 * spared/ | solver/check_coarse_first
+sweeps for nothing | runtime/engine/api_choice.c | s/SWEPT = 0.2/SWEPT = 0/ | runtime/check_choice
 links at any price | runtime/engine/api_choice.c | s/may_be_none ? FEW : 0/0 * FEW/ | solver/check_coarse_first runtime/check_choice
 scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(oracle->set\[i\]/near = p->integer ? round(refiner_get(oracle->refiner, i)/; s/: oracle->set\[i\] \* times/: refiner_get(oracle->refiner, i) * times/ | runtime/check_choice
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice

@@ -10,18 +10,20 @@
  * to keep them.
  *
  * Links of error e, point by point, and L rays are worth these only where particles from as many
- * would be farther off: e^2 < s^2 / L. So links come coarse first, with thresholds times COARSE,
- * and few particles measure e and s. Finer links, of L' rays and error e', spare s^2 (1 / e'^2 - 1
- * / e^2) rays. Were it rays that make the error, e^2 would fall with 1 / L; where elements make it,
- * it falls more slowly: with L^-.4 on maze_8, office3 and td, whose e^2 halves as L grows six
- * times. Then s^2 ((L' / L)^.4 - 1) / e^2 rays are spared, fewer than L' for every L' where e^2 is
- * above s^2 / (FINER L): particles are the cheaper way, and the coarse links stay. Unless particles
- * would have to do all: where coarse links know next to nothing of places, as of a gap between a
- * cupboard and its wall, finer ones may know nearly all of it. If what they could spare at the most
- * takes longer than they do, which is TRIED times what the coarse ones did, they are made. So
- * nobody waits more than about twice as long as for the better way, whatever e falls with. Finer
- * links are solved for anew: what was given up coarsely is not missed then. All follows from
- * counts, so the choice is the same on any machine, and on any number of them. [Derived here]
+ * would be farther off: e^2 < s^2 / L. Sweeps are a part of L: an empty white sphere takes no rays,
+ * and 200 sweeps. So links come coarse first, with thresholds times COARSE, and few particles
+ * measure e and s; of e^2 the most counts that they do not speak against, for by chance it may come
+ * out below 0, which no L would be too much for. Finer links, of L' rays and error e', spare s^2 (1
+ * / e'^2 - 1 / e^2) rays. Were it rays that make the error, e^2 would fall with 1 / L; where
+ * elements make it, it falls more slowly: with L^-.4 on maze_8, office3 and td, whose e^2 halves as
+ * L grows six times. Then s^2 ((L' / L)^.4 - 1) / e^2 rays are spared, fewer than L' for every L'
+ * where e^2 is above s^2 / (FINER L): particles are the cheaper way, and the coarse links stay.
+ * Unless particles would have to do all: where coarse links know next to nothing of places, as of a
+ * gap between a cupboard and its wall, finer ones may know nearly all of it. If what they could
+ * spare at the most takes longer than they do, which is TRIED times what the coarse ones did, they
+ * are made. So nobody waits more than about twice as long as for the better way, whatever e falls
+ * with. Finer links are solved for anew: what was given up coarsely is not missed then. All follows
+ * from counts, so the choice is the same on any machine, and on any number of them. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -31,8 +33,11 @@
 static const double COARSE = 16;
 static const double FINER = 5.4; /* the least of x / (x^.4 - 1), at x = 3.6 */
 /* rays of particles that take as long as discussing a pair and sweeping over what comes of it:
- * between 2.4 and 5 in scenes of 500 to 15,000 faces */
+ * between 2.4 and 5 in scenes of 500 to 15,000 faces that reflect a half; where sweeps are known,
+ * the same without them, and each of them over a link: 55 to 130 ns, beside .3 us of a ray */
 static const double PAIR = 4;
+static const double DISCUSSED = 3;
+static const double SWEPT = 0.2;
 /* of what could be spared: on td and office3 coarse links spare .4 of it, and leaves that the first
  * particles tell spare some of it, too */
 static const double QUARTER = 0.25;
@@ -165,12 +170,25 @@ static int solve_coarse(struct choosing *x, RadSolution *solution)
     return status;
 }
 
+/* Squared error of links on places, as much as it may be by what was measured. */
+static double most_off(const struct RadPlaces *p)
+{
+    return fmax(p->links, 0) + p->deviation;
+}
+
+/* Rays that take as long as the sweeps of all passes. */
+static double sweeping(const struct RadReport *r)
+{
+    return SWEPT * (double)r->links * (r->iterations + r->linear.sweeps);
+}
+
 /* Are finer links worth their price, as coarse ones are measured? */
 static int is_finer_better(const struct RadPlaces *p, const struct RadReport *coarse)
 {
-    const double rays = (double)coarse->rays, cost = TRIED * (rays + PAIR * (double)coarse->pairs),
-                 spared = rays_for_places(p) - p->ray / p->links - rays_for_faces(p);
-    return p->links * FINER * rays < p->ray || PARTICLE * spared > cost;
+    const double rays = (double)coarse->rays + sweeping(coarse),
+                 cost = TRIED * (rays + DISCUSSED * (double)coarse->pairs), links = most_off(p),
+                 spared = rays_for_places(p) - p->ray / links - rays_for_faces(p);
+    return links * FINER * rays < p->ray || PARTICLE * spared > cost;
 }
 
 /* Returns 0, or -1. */
@@ -191,7 +209,7 @@ static int choose(struct choosing *x, RadSolution *solution)
     x->so_far.rays += r.rays;
     x->so_far.seconds = seconds() - start;
     radReleaseSolution(*solution);
-    x->linked = fmax(p.links, 0) + p.deviation;
+    x->linked = most_off(&p);
     return solve(x, 1, 0, solution);
 }
 

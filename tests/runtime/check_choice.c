@@ -249,6 +249,61 @@ START_TEST(test_links_do_not_pay)
 }
 END_TEST
 
+/* A cube of 6 TILES^2 squares of one reflectance, which sees itself: no links take a ray. */
+static RadScene open_tiles(RadDevice device, double reflectance)
+{
+    enum { TILES = 10, ALL = 6 * TILES * TILES };
+    static double at[4 * ALL][3];
+    static uint32_t corner[ALL][4], material[ALL];
+    for (uint32_t i = 0; i < ALL; i++) {
+        const uint32_t side = i / (TILES * TILES), axis = side / 2, far = side % 2;
+        material[i] = i == 0;
+        for (uint32_t j = 0; j < 4; j++) {
+            const uint32_t right = (j == 1 || j == 2), up = j > 1;
+            corner[i][far ? 3 - j : j] = 4 * i + j;
+            at[4 * i + j][axis] = far;
+            at[4 * i + j][(axis + 1) % 3] = (double)(i % TILES + right) / TILES;
+            at[4 * i + j][(axis + 2) % 3] = (double)(i / TILES % TILES + up) / TILES;
+        }
+    }
+    const double r = reflectance;
+    const struct RadMaterial materials[2] = {{{r, r, r}, {0, 0, 0}, 0},
+                                             {{r, r, r}, {10, 10, 10}, 0}};
+    const struct RadPolygons polygons = {.positions = at[0],
+                                         .position_count = 4 * ALL,
+                                         .indices = corner[0],
+                                         .size = 4,
+                                         .materials = material,
+                                         .count = ALL};
+    RadScene scene = radNewScene(device);
+    ck_assert_int_eq(radSetSceneMaterials(scene, materials, 2), 0);
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &polygons), 0);
+    ck_assert_msg(radCommitScene(scene) == 0, "%s", radGetDeviceErrorMessage(device));
+    return scene;
+}
+
+/* Finer links in a white room would be swept over as often as coarse ones, and that is what they
+ * cost, though they take no rays. */
+START_TEST(test_sweeps_cost)
+{
+    const double reflectances[2] = {0.3, 0.98};
+    for (int i = 0; i < 2; i++) {
+        RadDevice device = radNewDevice(NULL);
+        RadScene scene = open_tiles(device, reflectances[i]);
+        RadOracle oracle = open_oracle(device);
+        struct RadChoice choice;
+        RadSolution solution = radSolveScene(scene, oracle, &linear, NULL, &choice);
+        ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(device));
+        ck_assert_int_eq(choice.no_links, 0);
+        ck_assert_double_eq(choice.scale, i == 0 ? 1 : 16);
+        radReleaseSolution(solution);
+        radReleaseOracle(oracle);
+        radReleaseScene(scene);
+        radReleaseDevice(device);
+    }
+}
+END_TEST
+
 START_TEST(test_refused)
 {
     const struct asked a = ask(0);
@@ -277,6 +332,7 @@ int main(void)
     tcase_add_test(t, test_scale);
     tcase_add_test(t, test_links_pay);
     tcase_add_test(t, test_links_do_not_pay);
+    tcase_add_test(t, test_sweeps_cost);
     tcase_add_test(t, test_refused);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
