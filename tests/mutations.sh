@@ -49,6 +49,7 @@ replicates of paths share their points | runtime/particles/face_paths.c | s/REPL
 a look that is a part of what there may be | runtime/engine/path_mending.c | s/fmin(cost . PATHS_LOOK, most . PART)/fmin(cost, most) \/ PATHS_LOOK/ | runtime/check_path_mending
 a look at any price | runtime/engine/path_mending.c | s/fmin(cost . PATHS_LOOK, most . PART)/(cost \/ PATHS_LOOK)/ | runtime/check_path_mending
 paths are held against particles that saw nothing | runtime/engine/path_mending.c | s/fmax(of_particles, tally_power_of_one(particles) . by_paths)/fmax(of_particles, 0 * by_paths)/ | runtime/check_path_mending
+paths miss nothing | runtime/particles/particles.h | s/tally->faces . (all \* all) : 0/0 * tally->faces \/ (all * all) : 0/ | runtime/check_path_mending
 nothing seen is nothing there | runtime/engine/reflected_light.c | s/        \*variance = tally_power_of_one/        *variance = 0 * tally_power_of_one/ | runtime/check_unseen_light
 faces are surer than all light | runtime/engine/dim_belief.h | s/variance + d->shared \* light/variance + 0 * d->shared * light/ | runtime/check_unseen_light
 what nobody has found light on is dark | runtime/engine/dim_belief.h | s/light > 0 \&\& variance/variance/ | runtime/check_unseen_light

@@ -254,7 +254,8 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
         double scaled = chance[class] > 0 ? c->deviation[i] * seen[class] / chance[class] : 0;
         double square = c->mean[i] * c->mean[i]; /* over the number of particles: variance */
         double own = square > 0 ? 0.5 / (1 + FACE_ERROR_FEW * scaled / square) : 0;
-        c->deviation[i] = sqrt(own * variance_seen(c, i) + (1 - own) * scaled);
+        c->deviation[i] =
+            sqrt(own * variance_seen(c, i) + (1 - own) * scaled + tally_unseen(tally) * square);
     }
 }
 

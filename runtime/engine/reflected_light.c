@@ -20,6 +20,8 @@ double reflected_light(const struct problem *p, const struct tally *tally, doubl
     for (int r = 0; r < REPLICATES; r++)
         square += (power[r] - mean) * (power[r] - mean);
     *variance = square / (REPLICATES * (REPLICATES - 1));
+    if (tally->faces > 0)
+        *variance += tally_unseen(tally) * mean * mean / tally->faces;
     if (!(mean > 0) && !tally->by_paths && p->reflects)
         *variance = tally_power_of_one(tally) * tally_power_of_one(tally);
     return mean;

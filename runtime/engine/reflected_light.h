@@ -6,8 +6,9 @@
 #include "engine/problem.h"
 #include "particles/particles.h"
 
-/* W, all bands, on all ranks; *variance: of that, by how replicates differ; where none of the
- * particles was reflected, though some may be, as if one more were. */
+/* W, all bands, on all ranks; *variance: of that, by how replicates differ, and of paths by what
+ * none may have found (tally_unseen); where none of the particles was reflected, though some may
+ * be, as if one more were. */
 double reflected_light(const struct problem *p, const struct tally *tally, double *variance);
 
 /* Where the tally has seen nothing reflected: no more than that is (W, all bands; by particles in

@@ -172,4 +172,15 @@ static inline double tally_chance(const struct tally *tally, double received, ui
     return one * (tally->square[band] * received + one);
 }
 
+/* The variance of what the mean over a face by paths lacks, as a share of its square, 0 of
+ * particles: as if of all paths one more had found there what one finds in the mean. Light that is
+ * met by a few of them, as a lamp is by directions of which one in a hundred finds it, may have
+ * been met by none, and then no replicate differs. Faces have about as many paths each, so that of
+ * one that has n of N its share of one more is 1 / n N. */
+static inline double tally_unseen(const struct tally *tally)
+{
+    const double all = (double)tally->particles * REPLICATES;
+    return tally->by_paths && all > 0 ? tally->faces / (all * all) : 0;
+}
+
 #endif
