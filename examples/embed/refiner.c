@@ -303,9 +303,9 @@
  * its last links) */
 #define REFINER_SOLVE_TOLERANCE_MOST 1e-3
 /* extrapolation.h: ratios of changes above which sweeps are slow; how far two may be apart, as a
- * share of what they lack of 1; sweeps in a row. Chosen: below .97 a digit takes 76 sweeps at the
+ * share of what they lack of 1; sweeps in a row. Chosen: below .9 a digit takes 22 sweeps at the
  * most */
-#define REFINER_EXTRAPOLATION_SLOW 0.97
+#define REFINER_EXTRAPOLATION_SLOW 0.9
 #define REFINER_EXTRAPOLATION_NEAR 0.3
 #define REFINER_EXTRAPOLATION_STEADY 4
 /* sweeps. A bound that has not fallen for so long is as low as rounding lets it be; chosen: without

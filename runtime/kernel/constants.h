@@ -278,9 +278,9 @@
  * its last links) */
 #define SOLVE_TOLERANCE_MOST 1e-3
 /* extrapolation.h: ratios of changes above which sweeps are slow; how far two may be apart, as a
- * share of what they lack of 1; sweeps in a row. Chosen: below .97 a digit takes 76 sweeps at the
+ * share of what they lack of 1; sweeps in a row. Chosen: below .9 a digit takes 22 sweeps at the
  * most */
-#define EXTRAPOLATION_SLOW 0.97
+#define EXTRAPOLATION_SLOW 0.9
 #define EXTRAPOLATION_NEAR 0.3
 #define EXTRAPOLATION_STEADY 4
 /* sweeps. A bound that has not fallen for so long is as low as rounding lets it be; chosen: without
