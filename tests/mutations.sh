@@ -152,7 +152,7 @@ sets have the slope of all | runtime/particles/power_balance.c | s/LEFT_OUT \* q
 what leaves is still here | runtime/particles/power_balance.c | s/= ended\[k\] + unit/= ended[k] + 0 * unit/ | runtime/check_power_balance
 leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correction\[REPLICATES\]\[band\])/1/ | runtime/check_power_balance
 hidden at its middle, hidden all over | runtime/engine/sight_outlines.c | s/met &= sight_faces_met/(void)sight_faces_met/ | runtime/check_outlines
-half of what stands before a piece | runtime/engine/exchange_sight.c | s/memcpy(list_of(l, at), b->list, (size_t)b->faces/& \/ 2/ | runtime/check_outlines
+half of what stands before a piece | runtime/engine/sight_cubature.c | s/memcpy(list_of(l, at), b->list, (size_t)b->faces/& \/ 2/ | runtime/check_outlines
 counted by nobody, surely nothing | runtime/engine/mend_clusters.c | s/known \* noise + (1 - known) \* chance/noise/ | runtime/check_measured_error
 the worst of all thresholds | runtime/engine/mend_clusters.c | s/r->left\[i\] < r->left\[best\]/r->left[i] > r->left[best]/ | runtime/check_mended_error
 thresholds that noise chooses | runtime/engine/mend_clusters.c | s,? 4 \* h / children \* note->replicates,? 0 * h / children, | runtime/check_mended_error
@@ -166,11 +166,11 @@ weak paths tell, too | runtime/engine/reference.c | s/w < REFERENCE_LEAST/w < 0 
 paths go on to their noise | runtime/engine/mended_error.c | s/goal->left > 0 \&\& tally/goal->left > 0 \&\& !tally->by_paths \&\& tally/ | runtime/check_path_mending
 no link spares a ray | runtime/engine/mended_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error
 what touches may hide | runtime/engine/sight_missed.c | s/    return beyond;/    return 0;/ | runtime/check_entries
-small shades are missed | runtime/engine/exchange_sight.c | s/node->error += missed(l, at);/(void)missed;/ | runtime/check_entries
+small shades are missed | runtime/engine/sight_cubature.c | s/node->error += missed(l, at);/(void)missed;/ | runtime/check_entries
 parts of polygons count | runtime/engine/exchange_areas.c | s/how->tolerance, scene->input_count,/how->tolerance, tree->h.face_count,/ | runtime/check_entries
-faint pairs see all of each other | runtime/engine/exchange_sight.c | s/return clear \* share;/return clear;/ | runtime/check_entries
-faint pairs see nothing | runtime/engine/exchange_sight.c | s/return clear \* share;/return 0 * share;/ | runtime/check_entries
-points stand for all | runtime/engine/exchange_sight.c | s/node->unseen = fmax(fabs(/node->unseen = 0 * fmax(fabs(/ | runtime/check_sight_rays
+faint pairs see all of each other | runtime/engine/sight_rays.c | s/return clear \* share;/return clear;/ | runtime/check_entries
+faint pairs see nothing | runtime/engine/sight_rays.c | s/return clear \* share;/return 0 * share;/ | runtime/check_entries
+points stand for all | runtime/engine/sight_cubature.c | s/node->unseen = fmax(fabs(/node->unseen = 0 * fmax(fabs(/ | runtime/check_sight_rays
 points stand for directions | runtime/engine/sight_rays.c | s/FAR = 4/FAR = 0/ | runtime/check_sight_rays
 no one more is lost | runtime/engine/face_error.c | s/noise + 1 \/ (particles \* particles)/noise/ | runtime/check_measured_error
 few particles seem normal | runtime/engine/face_error.c | s/count >= FACE_ERROR_MANY/1/ | runtime/check_measured_error
@@ -188,7 +188,7 @@ scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(o
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice
 a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
-light goes through solids | runtime/engine/exchange_sight.c | s/l->joined && bodies_hold/0 * l->joined \&\& bodies_hold/ | runtime/check_stacked
+light goes through solids | runtime/engine/sight_cubature.c | s/l->ends.joined && bodies_hold/0 * l->ends.joined \&\& bodies_hold/ | runtime/check_stacked
 houses are solid | runtime/hierarchy/body_feet.c | s/if (!is_lining(s, mates, b->feet\[i\].solid))/if (b->feet[i].solid != UINT32_MAX)/ | runtime/check_stacked
 tubes are solid | runtime/hierarchy/body_feet.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
 points on the larger face | runtime/engine/exchange_sight.c | s/from_r = apart ?/from_r = 0 * apart ?/ | runtime/check_slots
@@ -197,8 +197,8 @@ parts with few pieces | runtime/engine/sight_limits.c | s/own.pieces = .*/own.pi
 lines of one half alone | runtime/engine/sight_outlines.c | s/^ *add_seen(c, list, n, list + n, &below)/if (!halved) &/ | runtime/check_outlines
 quads bent by more than rays tell | runtime/hierarchy/scene.c | s/SCENE_FLAT_FOR_RAYS \* extent/1e9 * extent/ | runtime/check_reference
 pipes cover what they stand on | runtime/hierarchy/body_feet.c | s/return s->lids > 1;/return 0;/ | runtime/check_stacked
-pieces cut in the middle | runtime/engine/exchange_sight.c | s/OFF_MIDDLE = 0.125/OFF_MIDDLE = 0/ | runtime/check_sheets
-near faces are not asked | runtime/engine/exchange_sight.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets
+pieces cut in the middle | runtime/engine/sight_parts.c | s/OFF_MIDDLE = 0.125/OFF_MIDDLE = 0/ | runtime/check_sheets
+near faces are not asked | runtime/engine/sight_cubature.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets
 crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from > 2)/else if (to - from > 99)/ | runtime/check_stacked
 boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
 polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/if (find_by_polygons(&m, h) < 0)/if (0 \&\& find_by_polygons(\&m, h) < 0)/ | runtime/check_assemblies

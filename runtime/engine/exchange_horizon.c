@@ -7,7 +7,7 @@
  * hidden. No other edge matters: from a point of the rectangle that is hidden to one that is not,
  * the way leads across the outline within the rectangle, out of the half plane of the edge there.
  * Where none runs through it, all of it is seen or hidden as one, and a ray says which. A pair is
- * believed where its face's points tell enough, as a piece is (exchange_sight.c); it is integrated
+ * believed where its face's points tell enough, as a piece is (sight_cubature.c); it is integrated
  * by itself where they do not, and where rounding decides: of points nearly in the plane of a face
  * at the outline, or in line with an edge of it.
  * Invariant: as pair by pair, within the tolerance.
@@ -352,7 +352,7 @@ struct two_rules {
 };
 
 /* What a face, by its points, exchanges with a cell, of *value with nothing between (m2). Returns
- * the error estimated, as of a piece (exchange_sight.c). */
+ * the error estimated, as of a piece (sight_cubature.c). */
 static double measure(const struct looking_past *l, const struct two_rules *rules,
                       const struct face_fit *fit, const struct horizon_cell *c, double *value)
 {

@@ -167,3 +167,11 @@ double sight_rays(const struct element *r, const struct element *s, const struct
     *error = sqrt(square / (a.all * a.all) + 1.0 / rays / rays); /* one ray might differ */
     return v;
 }
+
+double sight_rays_leave(const struct element *r, const struct element *s, const struct host *host,
+                        int rays, double clear, double *error)
+{
+    const double share = sight_rays(r, s, host, rays, error);
+    *error *= clear;
+    return clear * share;
+}

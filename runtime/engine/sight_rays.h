@@ -10,4 +10,8 @@
 double sight_rays(const struct element *r, const struct element *s, const struct host *host,
                   int rays, double *error);
 
+/* What so many rays leave of a clear view (m2); *error: the standard error of that (m2). */
+double sight_rays_leave(const struct element *r, const struct element *s, const struct host *host,
+                        int rays, double clear, double *error);
+
 #endif
