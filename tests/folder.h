@@ -3,9 +3,11 @@
 #ifndef FOLDER_H
 #define FOLDER_H
 
+#include <check.h>
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 static char folder[64];
@@ -18,6 +20,27 @@ static inline char *in_folder(const char *name)
     turn = (turn + 1) % 64;
     snprintf(path[turn], sizeof path[turn], "%.60s/%.200s", folder, name);
     return path[turn];
+}
+
+static inline void folder_write(const char *name, const char *text)
+{
+    FILE *f = fopen(in_folder(name), "w");
+    ck_assert_ptr_nonnull(f);
+    fputs(text, f);
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+/* Does a line of the file hold this text? */
+static inline int folder_holds(const char *name, const char *text)
+{
+    char line[1024];
+    int found = 0;
+    FILE *f = fopen(in_folder(name), "r");
+    ck_assert_ptr_nonnull(f);
+    while (fgets(line, sizeof line, f))
+        found |= strstr(line, text) != NULL;
+    (void)fclose(f);
+    return found;
 }
 
 /* Returns 0, or -1. */

@@ -17,6 +17,7 @@
 #include "hierarchy/scene.h"
 #include "scene/read_scene.h"
 #include "runtime/path_reference.h"
+#include "command.h"
 #include "suite.h"
 
 /* Particles mend to a noise of half a percent (RAD_CORRECT_NOISE), two thirds more is left for what
@@ -41,15 +42,12 @@ enum { SCENES = sizeof accuracies / sizeof *accuracies };
 /* rho A H (W) of every face of the file and band, as the command's table has it. */
 static double *solved_powers(const char *path, uint32_t faces, uint32_t bands)
 {
-    const char *program = getenv("RADIOSITY");
-    char table[] = "/tmp/accuracy-XXXXXX", command[512], line[4096];
+    char table[] = "/tmp/accuracy-XXXXXX", line[4096];
     double *power = calloc((size_t)faces * bands, sizeof *power);
     int column[7], columns = 0, file = mkstemp(table);
     ck_assert_int_ge(file, 0);
     FILE *in = fdopen(file, "r");
-    snprintf(command, sizeof command, "%s solve %s -q --faces %s",
-             program ? program : "build/bin/radiosity", path, table);
-    ck_assert_int_eq(system(command), 0);
+    ck_assert_int_eq(shell("$RADIOSITY solve %s -q --faces %s", path, table), 0);
     in = freopen(table, "r", in); /* the command has put another file there */
     ck_assert_ptr_nonnull(fgets(line, sizeof line, in));
     memset(column, -1, sizeof column);

@@ -8,6 +8,8 @@
 #include "runtime/make_pair.h"
 #include "runtime/make_solve.h"
 #include "oracles.h"
+#include "command.h"
+#include "folder.h"
 #include "suite.h"
 #include "kernel/cluster_facing.h"
 #include "tools/alpha_gap.h"
@@ -727,19 +729,11 @@ static const char asked[] =
 
 START_TEST(test_compiled)
 {
-    const char *program = getenv("RADIOSITY");
-    char folder[] = "/tmp/cluster-tools-XXXXXX", path[64], command[512];
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/asked.dag", folder);
-    FILE *out = fopen(path, "w");
-    ck_assert_ptr_nonnull(out);
-    fputs(asked, out);
-    ck_assert_int_eq(fclose(out), 0);
-    snprintf(command, sizeof command, "%s compare examples/scenes/room.obj --oracle %s --repeats 1",
-             program ? program : "build/bin/radiosity", path);
-    int status = system(command);
-    unlink(path);
-    rmdir(folder);
+    ck_assert_int_eq(folder_make("cluster-tools"), 0);
+    folder_write("asked.dag", asked);
+    int status = shell(
+        "$RADIOSITY compare examples/scenes/room.obj --oracle %s/asked.dag --repeats 1", folder);
+    folder_remove();
     ck_assert_int_eq(status, 0);
 }
 END_TEST

@@ -15,6 +15,7 @@
 #include "util/oracles.h"
 #include "runtime/path_reference.h"
 #include "engine/solve.h"
+#include "command.h"
 #include "suite.h"
 
 /* Outside a test, too. */
@@ -77,13 +78,11 @@ static const char *const ways[] = {
 
 START_TEST(test_default_by_hand)
 {
-    const char *program = getenv("RADIOSITY");
-    char command[512];
     ck_assert(oracles_by_hand(DEFAULT_ORACLE));
-    snprintf(command, sizeof command,
-             "%s compare examples/scenes/%s --oracle %s --repeats 1 > /dev/null",
-             program ? program : "build/bin/radiosity", ways[_i], DEFAULT_ORACLE);
-    ck_assert_msg(system(command) == 0, "%s", command);
+    ck_assert_msg(shell("$RADIOSITY compare examples/scenes/%s --oracle %s --repeats 1 > /dev/null",
+                        ways[_i], DEFAULT_ORACLE)
+                      == 0,
+                  "%s", ways[_i]);
 }
 END_TEST
 

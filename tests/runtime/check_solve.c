@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include "hand.h"
 #include "runtime/make_solve.h"
+#include "command.h"
 #include "suite.h"
 
 /* B = E / (1 - rho) in any closed shape, at the default parameters. */
@@ -223,14 +224,11 @@ START_TEST(test_compare)
 {
     static const char *const scene[] = {"cornell", "room", "maze_8", "furnace", "td"};
     static const char *const oracle[] = {"bf", "bf_guarded"};
-    const char *program = getenv("RADIOSITY");
-    char command[512];
-    snprintf(command, sizeof command,
-             "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set relative=0.5 --set "
-             "min_share=1e-3%s > /dev/null",
-             program ? program : "build/bin/radiosity", scene[_i / 2], oracle[_i % 2],
-             _i % 2 ? " --set shadow=0.1 --set faint=1e-3" : "");
-    ck_assert_int_eq(system(command), 0);
+    ck_assert_int_eq(shell("$RADIOSITY compare examples/scenes/%s.obj --oracle %s --repeats 1 "
+                           "--set relative=0.5 --set min_share=1e-3%s > /dev/null",
+                           scene[_i / 2], oracle[_i % 2],
+                           _i % 2 ? " --set shadow=0.1 --set faint=1e-3" : ""),
+                     0);
 }
 END_TEST
 

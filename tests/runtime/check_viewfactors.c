@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "command.h"
+#include "folder.h"
 #include "study/closed_forms.h"
 #include "runtime/make_pair.h"
 #include "runtime/make_room.h"
@@ -19,30 +21,14 @@
 #include "suite.h"
 #include "kernel/polygon_factor.h"
 
-static char folder[] = "/tmp/viewfactors-XXXXXX";
-
-static void write_file(const char *name, const char *text)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *f = fopen(path, "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    ck_assert_int_eq(fclose(f), 0);
-}
-
 /* Run the command on an OBJ text and read the n x n matrix. */
 static void matrix(const char *obj, const char *more, int n, double *f)
 {
-    char command[1024], path[256];
-    const char *program = getenv("RADIOSITY");
-    write_file("scene.mtl", "newmtl grey\nKd .5 .5 .5\nnewmtl grey_2s\nKd .5 .5 .5\n");
-    write_file("scene.obj", obj);
-    snprintf(command, sizeof command, "%s viewfactors %s/scene.obj -q -o %s/out.csv %s",
-             program ? program : "build/bin/radiosity", folder, folder, more);
-    ck_assert_int_eq(system(command), 0);
-    snprintf(path, sizeof path, "%s/out.csv", folder);
-    FILE *in = fopen(path, "r");
+    folder_write("scene.mtl", "newmtl grey\nKd .5 .5 .5\nnewmtl grey_2s\nKd .5 .5 .5\n");
+    folder_write("scene.obj", obj);
+    ck_assert_int_eq(
+        shell("$RADIOSITY viewfactors %s/scene.obj -q -o %s/out.csv %s", folder, folder, more), 0);
+    FILE *in = fopen(in_folder("out.csv"), "r");
     ck_assert_ptr_nonnull(in);
     for (int i = 0; i < n * n; i++)
         ck_assert_int_eq(fscanf(in, i % n == n - 1 ? "%lf\n" : "%lf,", &f[i]), 1);
@@ -141,13 +127,9 @@ START_TEST(test_rows)
 {
     enum { N = 96 };
     static double f[N * N];
-    char command[512], path[256];
-    const char *program = getenv("RADIOSITY");
-    snprintf(path, sizeof path, "%s/out.csv", folder);
-    snprintf(command, sizeof command, "%s viewfactors examples/scenes/furnace_4.obj -q -o %s",
-             program ? program : "build/bin/radiosity", path);
-    ck_assert_int_eq(system(command), 0);
-    FILE *in = fopen(path, "r");
+    ck_assert_int_eq(
+        shell("$RADIOSITY viewfactors examples/scenes/furnace_4.obj -q -o %s/out.csv", folder), 0);
+    FILE *in = fopen(in_folder("out.csv"), "r");
     ck_assert_ptr_nonnull(in);
     for (int i = 0; i < N * N; i++)
         ck_assert_int_eq(fscanf(in, i % N == N - 1 ? "%lf\n" : "%lf,", &f[i]), 1);
@@ -167,27 +149,20 @@ END_TEST
 
 static const char *run_room(const struct room *r, int without, const char *more)
 {
-    static char path[256];
-    const char *program = getenv("RADIOSITY");
-    write_file("room.mtl", "newmtl wall\nKd .5 .5 .5\nnewmtl box\nKd .5 .5 .5\n");
-    snprintf(path, sizeof path, "%s/room.obj", folder);
-    FILE *out = fopen(path, "w");
+    folder_write("room.mtl", "newmtl wall\nKd .5 .5 .5\nnewmtl box\nKd .5 .5 .5\n");
+    FILE *out = fopen(in_folder("room.obj"), "w");
     ck_assert_ptr_nonnull(out);
     room_write(r, without, out);
     ck_assert_int_eq(fclose(out), 0);
-    snprintf(path, sizeof path, "%s/out", folder);
-    char command[1024];
-    snprintf(command, sizeof command, "%s viewfactors %s/room.obj -q --json %s/out.json -o %s %s",
-             program ? program : "build/bin/radiosity", folder, folder, path, more);
-    ck_assert_int_eq(system(command), 0);
-    return path;
+    ck_assert_int_eq(shell("cd %s && $RADIOSITY viewfactors room.obj -q --json out.json -o out %s",
+                           folder, more),
+                     0);
+    return in_folder("out");
 }
 
 static json_t *read_json(void)
 {
-    char path[256];
-    snprintf(path, sizeof path, "%s/out.json", folder);
-    json_t *json = json_load_file(path, 0, NULL);
+    json_t *json = json_load_file(in_folder("out.json"), 0, NULL);
     ck_assert_ptr_nonnull(json);
     return json;
 }
@@ -279,8 +254,7 @@ START_TEST(test_formats)
         ck_assert_int_eq(fscanf(in, i % n == n - 1 ? "%lf\n" : "%lf,", &csv[i]), 1);
     ck_assert_int_eq(fgetc(in), EOF);
     fclose(in);
-    snprintf(options, sizeof options, "--format mtx --names %s/names", folder);
-    in = fopen(run_room(&r, -1, options), "r");
+    in = fopen(run_room(&r, -1, "--format mtx --names names"), "r");
     ck_assert_ptr_nonnull(fgets(line, sizeof line, in));
     ck_assert_str_eq(line, "%%MatrixMarket matrix coordinate real general\n");
     do
@@ -292,8 +266,7 @@ START_TEST(test_formats)
     ck_assert_int_eq(read_entries(in, n, 1, "%d %d %lf", mtx), entries);
     ck_assert_int_eq(memcmp(csv, coo, (size_t)n * (size_t)n * sizeof *csv), 0);
     ck_assert_int_eq(memcmp(mtx, coo, (size_t)n * (size_t)n * sizeof *csv), 0);
-    snprintf(line, sizeof line, "%s/names", folder);
-    in = fopen(line, "r");
+    in = fopen(in_folder("names"), "r");
     while (fgets(line, sizeof line, in)) {
         snprintf(options, sizeof options, "%s.%d\n", names < 54 ? "wall" : "box", names);
         ck_assert_str_eq(line, options);
@@ -472,12 +445,9 @@ START_TEST(test_threads)
     struct room r;
     room_make(&r, 6, 2, 30);
     (void)run_room(&r, -1, "--format coo --threads 1");
-    char command[300];
-    snprintf(command, sizeof command, "mv %s/out %s/one", folder, folder);
-    ck_assert_int_eq(system(command), 0);
+    ck_assert_int_eq(rename(in_folder("out"), in_folder("one")), 0);
     (void)run_room(&r, -1, "--format coo --threads 2");
-    snprintf(command, sizeof command, "cmp %s/out %s/one", folder, folder);
-    ck_assert_int_eq(system(command), 0);
+    ck_assert_int_eq(shell("cmp %s/out %s/one", folder, folder), 0);
 }
 END_TEST
 
@@ -536,17 +506,14 @@ START_TEST(test_options)
 {
     static const char *const wrong[] = {"--format xls", "--closure both", "--tolerance 0",
                                         "--names"};
-    const char *program = getenv("RADIOSITY");
-    char command[512];
-    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        snprintf(command, sizeof command, "%s viewfactors examples/scenes/furnace.obj %s 2>%s/said",
-                 program ? program : "build/bin/radiosity", wrong[k], folder);
-        ck_assert_int_eq(system(command) >> 8, 2);
-    }
-    snprintf(command, sizeof command,
-             "%s solve examples/scenes/furnace.obj --closure reciprocal 2>%s/said",
-             program ? program : "build/bin/radiosity", folder);
-    ck_assert_int_eq(system(command) >> 8, 2);
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
+        ck_assert_int_eq(shell("$RADIOSITY viewfactors examples/scenes/furnace.obj %s 2>%s/said",
+                               wrong[k], folder),
+                         2);
+    ck_assert_int_eq(
+        shell("$RADIOSITY solve examples/scenes/furnace.obj --closure reciprocal 2>%s/said",
+              folder),
+        2);
 }
 END_TEST
 
@@ -554,7 +521,7 @@ int main(void)
 {
     Suite *suite = suite_create("view factors");
     TCase *c = tcase_create("view factors");
-    if (!mkdtemp(folder))
+    if (folder_make("viewfactors") < 0)
         return 1;
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_clear);
@@ -573,7 +540,6 @@ int main(void)
     tcase_add_test(c, test_options);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    char command[256];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }

@@ -6,8 +6,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
+#include "command.h"
 #include "folder.h"
 #include "suite.h"
 #include "util/text_file.h"
@@ -19,21 +19,17 @@ static char message[4096]; /* what the last run said on stderr */
 static int run(const char *before, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static int run(const char *before, const char *format, ...)
 {
-    char arguments[2048], command[4096];
+    char arguments[2048];
     va_list list;
     va_start(list, format);
     vsnprintf(arguments, sizeof arguments, format, list);
     va_end(list);
-    const char *program = getenv("RADIOSITY");
-    ck_assert_msg(program != NULL, "RADIOSITY names the command");
-    snprintf(command, sizeof command, "%s \"$RADIOSITY\" %s 2>%s", before, arguments,
-             in_folder("message"));
-    int status = system(command);
+    const int status = shell("%s \"$RADIOSITY\" %s 2>%s", before, arguments, in_folder("message"));
     size_t size;
     char *text = text_file_read(in_folder("message"), &size);
     snprintf(message, sizeof message, "%s", text ? text : "");
     free(text);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return status;
 }
 
 static json_int_t whole(const json_t *object, const char *key)

@@ -6,30 +6,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <jansson.h>
+#include "command.h"
+#include "folder.h"
 #include "suite.h"
-
-static char folder[] = "/tmp/error-XXXXXX";
-
-static void write_file(const char *name, const char *text)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *f = fopen(path, "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    ck_assert_int_eq(fclose(f), 0);
-}
 
 /* What stands in a file of the folder, its first 8 kB. */
 static const char *text_of(const char *name)
 {
     static char text[8192];
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *f = fopen(path, "r");
+    FILE *f = fopen(in_folder(name), "r");
     ck_assert_ptr_nonnull(f);
     text[fread(text, 1, sizeof text - 1, f)] = 0;
     fclose(f);
@@ -39,27 +26,18 @@ static const char *text_of(const char *name)
 /* The exit status of `radiosity error a.csv b.csv ...`; what it says is in out and err. */
 static int run(const char *rest)
 {
-    char command[1024];
-    const char *program = getenv("RADIOSITY");
-    char *path = realpath(program ? program : "build/bin/radiosity", NULL);
-    snprintf(command, sizeof command, "cd %s && %s error a.csv b.csv %s > out 2> err", folder,
-             path ? path : "", rest);
-    free(path);
-    int status = system(command);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return shell("cd %s && $RADIOSITY error a.csv b.csv %s > out 2> err", folder, rest);
 }
 
 /* Compare two tables; the JSON, to be given back to json_decref. */
 static json_t *compare(const char *faces, const char *reference)
 {
-    write_file("a.csv", faces);
-    write_file("b.csv", reference);
+    folder_write("a.csv", faces);
+    folder_write("b.csv", reference);
     int status = run("--json x.json");
     ck_assert_msg(status == 0, "exit %d: %s", status, text_of("err"));
-    char path[256];
-    snprintf(path, sizeof path, "%s/x.json", folder);
     json_error_t error;
-    json_t *json = json_load_file(path, 0, &error);
+    json_t *json = json_load_file(in_folder("x.json"), 0, &error);
     ck_assert_msg(json != NULL, "%s", error.text);
     return json;
 }
@@ -201,24 +179,21 @@ START_TEST(bad_tables)
          "b.csv:3: error: face 1 has 3 m2, but in a.csv 2"},
         {"face,area,B_0\n0,1,1\n", "face,area,B_0\n0,1,1\n", "a.csv:1: error: the column E_0"},
     };
-    char path[256];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        snprintf(path, sizeof path, "%s/a.csv", folder);
-        unlink(path);
+        unlink(in_folder("a.csv"));
         if (rows[i][0])
-            write_file("a.csv", rows[i][0]);
-        write_file("b.csv", rows[i][1]);
+            folder_write("a.csv", rows[i][0]);
+        folder_write("b.csv", rows[i][1]);
         ck_assert_int_eq(run("--json none.json"), 1);
         const char *said = text_of("err");
         ck_assert_msg(strncmp(said, rows[i][2], strlen(rows[i][2])) == 0, "row %zu: %s", i, said);
         ck_assert_msg(strchr(said, '\n') == said + strlen(said) - 1, "row %zu: %s", i, said);
         ck_assert_str_eq(text_of("out"), "");
-        snprintf(path, sizeof path, "%s/none.json", folder);
-        ck_assert_int_ne(access(path, F_OK), 0);
+        ck_assert_int_ne(access(in_folder("none.json"), F_OK), 0);
     }
     /* no output over what is read */
-    write_file("a.csv", FACES);
-    write_file("b.csv", REFERENCE);
+    folder_write("a.csv", FACES);
+    folder_write("b.csv", REFERENCE);
     ck_assert_int_eq(run("--json b.csv"), 2);
     ck_assert_int_eq(run("--json a.csv"), 2);
     ck_assert_str_eq(text_of("b.csv"), REFERENCE);
@@ -227,7 +202,7 @@ END_TEST
 
 int main(void)
 {
-    if (!mkdtemp(folder))
+    if (folder_make("error") < 0)
         return 1;
     Suite *suite = suite_create("error");
     TCase *c = tcase_create("error");
@@ -238,7 +213,6 @@ int main(void)
     tcase_add_test(c, bad_tables);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    char command[64];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }

@@ -11,6 +11,7 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "command.h"
 #include "solver/mesh_text.h"
 #include "suite.h"
 
@@ -591,12 +592,10 @@ END_TEST
 
 static size_t matrix(const char *name, char *to, size_t most)
 {
-    char command[1024], out[80];
-    const char *program = getenv("RADIOSITY");
+    char out[80];
     snprintf(out, sizeof out, "%s.csv", name);
-    snprintf(command, sizeof command, "%s viewfactors %s -q -o %s",
-             program ? program : "build/bin/radiosity", in_folder(name), in_folder(out));
-    ck_assert_int_eq(system(command), 0);
+    ck_assert_int_eq(shell("$RADIOSITY viewfactors %s -q -o %s", in_folder(name), in_folder(out)),
+                     0);
     FILE *f = fopen(in_folder(out), "r");
     ck_assert_ptr_nonnull(f);
     const size_t size = fread(to, 1, most, f);

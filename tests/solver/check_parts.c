@@ -9,32 +9,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
+#include "command.h"
 #include "folder.h"
 #include "study/closed_forms.h"
 #include "suite.h"
 
-static void write_file(const char *name, const char *text)
-{
-    FILE *f = fopen(in_folder(name), "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    ck_assert_int_eq(fclose(f), 0);
-}
-
 /* Run the command on a scene of the folder. Returns its exit status; what it says is in `err`. */
 static int run(const char *scene, const char *options)
 {
-    char command[8192];
-    const char *program = getenv("RADIOSITY");
-    char *found = realpath(program ? program : "build/bin/radiosity", NULL);
-    ck_assert_ptr_nonnull(found);
-    write_file("grey.mtl", "newmtl grey\nKd .5 .5 .5\n");
-    snprintf(command, sizeof command, "cd %s && %s viewfactors %s -q -o out.csv %s 2>err", folder,
-             found, scene, options);
-    free(found);
-    int status = system(command);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    folder_write("grey.mtl", "newmtl grey\nKd .5 .5 .5\n");
+    return shell("cd %s && $RADIOSITY viewfactors %s -q -o out.csv %s 2>err", folder, scene,
+                 options);
 }
 
 static int said(const char *text)
@@ -78,7 +63,7 @@ static const char half[] = "mtllib grey.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 
 START_TEST(test_mirror)
 {
     double f[25], sum = 0;
-    write_file("half.obj", half);
+    folder_write("half.obj", half);
     ck_assert_int_eq(run("half.obj", "--mirror x=0"), 0);
     read_table(0, 0, 5, 5, f);
     double across = closed_parallel(2, 2, 1.5);
@@ -127,7 +112,7 @@ START_TEST(test_written_out)
                 at += sprintf(at, "\n");
             }
         }
-        write_file(copies == 1 ? "part.obj" : "whole.obj", text);
+        folder_write(copies == 1 ? "part.obj" : "whole.obj", text);
     }
     ck_assert_int_eq(run("whole.obj", ""), 0);
     read_table(0, 0, ALL, ALL, whole);
@@ -147,8 +132,8 @@ END_TEST
 START_TEST(test_repeat)
 {
     double f[4];
-    write_file("plates.obj", "mtllib grey.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-                             "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\nf 8 7 6 5\n");
+    folder_write("plates.obj", "mtllib grey.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                               "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\nf 8 7 6 5\n");
     ck_assert_int_eq(run("plates.obj", "--repeat x=1:30"), 0);
     read_table(0, 0, 2, 2, f);
     ck_assert_double_eq_tol(f[1], sqrt(2) - 1, 4e-4);
@@ -160,9 +145,9 @@ END_TEST
 START_TEST(test_sensors)
 {
     double row[3 * 7];
-    write_file("half.obj", half);
-    write_file("eyes", "# x y z nx ny nz name\n0 1 .75  0 0 1 mid, up # on the mirror\n\n"
-                       ".5 .5 .5 0 0 -2\n.9 1 1 -1 0 0 left\n");
+    folder_write("half.obj", half);
+    folder_write("eyes", "# x y z nx ny nz name\n0 1 .75  0 0 1 mid, up # on the mirror\n\n"
+                         ".5 .5 .5 0 0 -2\n.9 1 1 -1 0 0 left\n");
     ck_assert_int_eq(run("half.obj", "--sensor eyes --mirror x=0"), 0);
     read_table(1, 1, 3, 7, row);
     for (int i = 0; i < 3; i++) {
@@ -191,13 +176,13 @@ START_TEST(test_product)
 {
     double f[25], x[10], y[10];
     char text[512] = "flux, one # two columns\n", *at = text + strlen(text);
-    write_file("half.obj", half);
+    folder_write("half.obj", half);
     for (int i = 0; i < 5; i++) {
         x[2 * i] = 1.5 - i * i;
         x[2 * i + 1] = 1;
         at += sprintf(at, "%.17g,%.17g\n", x[2 * i], x[2 * i + 1]);
     }
-    write_file("x", text);
+    folder_write("x", text);
     static const char *const how[] = {"", "--mirror x=0 --closure rows --threads 1"};
     for (int h = 0; h < 2; h++) {
         char options[128];
@@ -250,13 +235,13 @@ START_TEST(test_wrong)
         {"--product zero", "zero: error: 1 lines of numbers, but the scene has 5 faces", 1},
         {"--product words", "words:2: error: 'b' is not a number", 1},
     };
-    write_file("half.obj", half);
-    write_file("eyes", "0 0 0 0 0 1\n");
-    write_file("empty", "# nothing\n");
-    write_file("short", "0 0 0 0 0 1\n1\n");
-    write_file("text", "0 0 up 0 0 1\n");
-    write_file("zero", "1 1 1 0 0 0\n");
-    write_file("words", "a\nb\n");
+    folder_write("half.obj", half);
+    folder_write("eyes", "0 0 0 0 0 1\n");
+    folder_write("empty", "# nothing\n");
+    folder_write("short", "0 0 0 0 0 1\n1\n");
+    folder_write("text", "0 0 up 0 0 1\n");
+    folder_write("zero", "1 1 1 0 0 0\n");
+    folder_write("words", "a\nb\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         remove(in_folder("out.csv"));
         int status = run("half.obj", cases[i].options);

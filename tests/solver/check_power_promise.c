@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <jansson.h>
+#include "command.h"
 #include "folder.h"
 #include "suite.h"
 
@@ -19,31 +19,24 @@ static const double known[6] = {1.1043616, 0.1712161, 0.1811056, 0.1811056, 0.18
 
 static void write_cube(void)
 {
-    FILE *f = fopen(in_folder("cube.mtl"), "w");
-    ck_assert_ptr_nonnull(f);
-    fputs("newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\nnewmtl wall\nKd 0.5 0.5 0.5\n", f);
-    ck_assert_int_eq(fclose(f), 0);
-    f = fopen(in_folder("cube.obj"), "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(
+    folder_write("cube.mtl",
+                 "newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\nnewmtl wall\nKd 0.5 0.5 0.5\n");
+    folder_write(
+        "cube.obj",
         "mtllib cube.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
         "usemtl lamp\nf 5 8 7 6\nusemtl wall\nf 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\n"
-        "f 4 8 5 1\n",
-        f);
-    ck_assert_int_eq(fclose(f), 0);
+        "f 4 8 5 1\n");
 }
 
 /* Solve the cube; returns its JSON, and the power that is wrong in all (W). */
 static json_t *solve(const char *options, double *wrong)
 {
-    const char *program = getenv("RADIOSITY");
-    char command[1024], line[512];
+    char line[512];
     write_cube();
-    snprintf(command, sizeof command,
-             "%s solve %s/cube.obj %s --faces %s/faces.csv --json %s/out.json > %s/out 2> %s/log",
-             program ? program : "build/bin/radiosity", folder, options, folder, folder, folder,
-             folder);
-    ck_assert_int_eq(system(command), 0);
+    ck_assert_int_eq(shell("cd %s && $RADIOSITY solve cube.obj %s --faces faces.csv --json out.json"
+                           " > out 2> log",
+                           folder, options),
+                     0);
     FILE *f = fopen(in_folder("faces.csv"), "r");
     ck_assert_ptr_nonnull(f);
     ck_assert_ptr_nonnull(fgets(line, sizeof line, f));
@@ -58,18 +51,6 @@ static json_t *solve(const char *options, double *wrong)
     json_t *json = json_load_file(in_folder("out.json"), 0, NULL);
     ck_assert_ptr_nonnull(json);
     return json;
-}
-
-static int holds(const char *name, const char *text)
-{
-    char line[1024];
-    int found = 0;
-    FILE *f = fopen(in_folder(name), "r");
-    ck_assert_ptr_nonnull(f);
-    while (fgets(line, sizeof line, f))
-        found |= strstr(line, text) != NULL;
-    (void)fclose(f);
-    return found;
 }
 
 static double of_promise(const json_t *json, const char *name)
@@ -90,8 +71,9 @@ START_TEST(test_broken)
     ck_assert(of_promise(json, "low") <= wrong && of_promise(json, "high") >= wrong);
     ck_assert(of_promise(json, "low") > 0.01);
     ck_assert(json_is_false(json_object_get(json_object_get(json, "promise"), "kept")));
-    ck_assert(holds("log", "warning: the oracle promised") && holds("log", "but they are off by"));
-    ck_assert(holds("out", "not kept"));
+    ck_assert(folder_holds("log", "warning: the oracle promised")
+              && folder_holds("log", "but they are off by"));
+    ck_assert(folder_holds("out", "not kept"));
     json_decref(json);
 }
 END_TEST
@@ -105,7 +87,7 @@ START_TEST(test_mended)
     ck_assert_double_le(wrong, 0.01);
     ck_assert(of_promise(json, "high") <= 0.01 && of_promise(json, "high") >= wrong);
     ck_assert(json_is_true(json_object_get(json_object_get(json, "promise"), "kept")));
-    ck_assert(!holds("log", "promised") && holds("out", "kept, off by at most"));
+    ck_assert(!folder_holds("log", "promised") && folder_holds("out", "kept, off by at most"));
     json_decref(json);
 }
 END_TEST
@@ -121,10 +103,10 @@ START_TEST(test_others)
     json_decref(json);
     json = solve("--oracle thermal --set links=100 --no-errors", &wrong);
     ck_assert(json_is_null(json_object_get(json_object_get(json, "promise"), "value")));
-    ck_assert(holds("out", "not measured"));
+    ck_assert(folder_holds("out", "not measured"));
     json_decref(json);
     json = solve("--oracle bf", &wrong);
-    ck_assert(json_is_null(json_object_get(json, "promise")) && !holds("out", "promise"));
+    ck_assert(json_is_null(json_object_get(json, "promise")) && !folder_holds("out", "promise"));
     json_decref(json);
 }
 END_TEST

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "command.h"
+#include "folder.h"
 #include "suite.h"
 #include "study/stability.h"
 #include "study/stability_known.h"
@@ -224,47 +226,33 @@ END_TEST
 
 static int run(const char *arguments)
 {
-    const char *program = getenv("RADIOSITY");
-    char command[512];
-    snprintf(command, sizeof command, "%s study %s", program ? program : "build/bin/radiosity",
-             arguments);
-    return system(command);
-}
-
-static int holds(const char *path, const char *text)
-{
-    FILE *in = fopen(path, "r");
-    int found = 0;
-    ck_assert_ptr_nonnull(in);
-    char line[1024];
-    while (!found && fgets(line, sizeof line, in))
-        found = strstr(line, text) != NULL;
-    fclose(in);
-    return found;
+    return shell("$RADIOSITY study %s", arguments);
 }
 
 START_TEST(test_command)
 {
-    char folder[] = "/tmp/stability-XXXXXX", arguments[256], path[64];
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/out", folder);
-    snprintf(arguments, sizeof arguments, "stability --only shared_edge > %s", path);
+    char arguments[256];
+    const char *path = "out";
+    ck_assert_int_eq(folder_make("stability"), 0);
+    snprintf(arguments, sizeof arguments, "stability --only shared_edge > %s", in_folder(path));
     ck_assert_int_eq(run(arguments), 0);
-    ck_assert(holds(path, "power") && holds(path, "fails: 1/r2 is unbounded")
-              && holds(path, "0 are not as expected"));
-    unlink(path);
-    snprintf(path, sizeof path, "%s/out.csv", folder);
-    snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", path);
+    ck_assert(folder_holds(path, "power") && folder_holds(path, "fails: 1/r2 is unbounded")
+              && folder_holds(path, "0 are not as expected"));
+    unlink(in_folder(path));
+    path = "out.csv";
+    snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", in_folder(path));
     ck_assert_int_eq(run(arguments), 0);
-    ck_assert(holds(path, "form factors,shared_edge,\"disc\",0.02"));
-    ck_assert(holds(path, ",measure,order") && holds(path, ",\"relative error of F\",0.46"));
-    unlink(path);
-    snprintf(path, sizeof path, "%s/out.md", folder);
-    snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", path);
+    ck_assert(folder_holds(path, "form factors,shared_edge,\"disc\",0.02"));
+    ck_assert(folder_holds(path, ",measure,order")
+              && folder_holds(path, ",\"relative error of F\",0.46"));
+    unlink(in_folder(path));
+    path = "out.md";
+    snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", in_folder(path));
     ck_assert_int_eq(run(arguments), 0);
-    ck_assert(holds(path, "The default oracle fails: shared_edge 3.3e-08; 1 of its 1 rows."));
-    ck_assert(holds(path, "| shared_edge | 1e-08 | 0.59 order 0.5 fails: 1/r2"));
-    unlink(path);
+    ck_assert(
+        folder_holds(path, "The default oracle fails: shared_edge 3.3e-08; 1 of its 1 rows."));
+    ck_assert(folder_holds(path, "| shared_edge | 1e-08 | 0.59 order 0.5 fails: 1/r2"));
+    unlink(in_folder(path));
     ck_assert_int_eq(rmdir(folder), 0);
     ck_assert_int_ne(run("stability --only nothing 2> /dev/null"), 0);
     ck_assert_int_ne(run("stability -o table.txt --only shared_edge 2> /dev/null"), 0);

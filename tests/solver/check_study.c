@@ -9,10 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include "discussion.h"
+#include "folder.h"
 #include "suite.h"
 #include "tools/lot.h"
-
-static char folder[] = "/tmp/study-XXXXXX";
 
 static int run(const char *more)
 {
@@ -46,12 +45,11 @@ static int read_row(FILE *in, struct row *r)
 static void read_table(const char *more, int status, int thresholds, int tools,
                        struct row rows[ROWS][TOOLS])
 {
-    char command[768], path[256], head[512];
-    snprintf(path, sizeof path, "%s/table.csv", folder);
-    snprintf(command, sizeof command, "%s -o %s", more, path);
+    char command[768], head[512];
+    snprintf(command, sizeof command, "%s -o %s", more, in_folder("table.csv"));
     int result = run(command);
     ck_assert_int_eq(WEXITSTATUS(result), status);
-    FILE *in = fopen(path, "r");
+    FILE *in = fopen(in_folder("table.csv"), "r");
     ck_assert_ptr_nonnull(in);
     ck_assert_ptr_nonnull(fgets(head, sizeof head, in));
     ck_assert(strncmp(head, "threshold,area_m2,tool,pairs,tested,known_percent,wrong,", 56) == 0);
@@ -318,7 +316,7 @@ int main(void)
 {
     Suite *suite = suite_create("study");
     TCase *c = tcase_create("study");
-    if (!mkdtemp(folder))
+    if (folder_make("study") < 0)
         return 1;
     tcase_set_timeout(c, 300);
     tcase_add_test(c, test_visibility);
@@ -331,7 +329,6 @@ int main(void)
     tcase_add_test(c, test_lot);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    char command[256];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }

@@ -12,8 +12,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
+#include "command.h"
+#include "folder.h"
 #include "study/arvo.h"
 #include "study/closed_forms.h"
 #include "suite.h"
@@ -31,27 +32,17 @@ static const struct row {
     {64, {"0.05297", "0.05300", "0.05301"}, {"0.01781", "0.01783"}, {"0.0223", "0.0227", "0.0228"}},
 };
 
-static char folder[] = "/tmp/arvo-XXXXXX";
 static struct arvo_errors told[FINEST + 1]; /* by the command */
 
 static int run(const char *arguments)
 {
-    const char *program = getenv("RADIOSITY");
-    char command[1024];
-    char *path = realpath(program ? program : "build/bin/radiosity", NULL);
-    snprintf(command, sizeof command, "cd %s && %s study arvo %s > out 2> err", folder,
-             path ? path : "", arguments);
-    free(path);
-    int status = system(command);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return shell("cd %s && $RADIOSITY study arvo %s > out 2> err", folder, arguments);
 }
 
-static FILE *in_folder(const char *name)
+static FILE *opened(const char *name)
 {
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *f = fopen(path, "r");
-    ck_assert_msg(f != NULL, "no %s", path);
+    FILE *f = fopen(in_folder(name), "r");
+    ck_assert_msg(f != NULL, "no %s", name);
     return f;
 }
 
@@ -66,7 +57,7 @@ static void same(const char *printed, double value, const char *what, int n)
 static void read_table(void)
 {
     ck_assert_int_eq(run("--csv a.csv --chart a.svg"), 0);
-    FILE *f = in_folder("a.csv");
+    FILE *f = opened("a.csv");
     char line[1024];
     ck_assert_ptr_nonnull(fgets(line, sizeof line, f));
     ck_assert_str_eq(line, "n,elements,l1_best,l1_galerkin,l1_collocation,l1_twice_best,l1_of_f,"
@@ -156,15 +147,15 @@ END_TEST
 START_TEST(what_is_shown)
 {
     char text[256] = "", last[256] = "";
-    FILE *f = in_folder("out");
+    FILE *f = opened("out");
     while (fgets(text, sizeof text, f))
         strcpy(last, text);
     fclose(f);
     ck_assert_str_eq(last, "* above twice the best: at n = 1 3 5\n");
-    f = in_folder("err");
+    f = opened("err");
     ck_assert_ptr_null(fgets(text, sizeof text, f));
     fclose(f);
-    f = in_folder("a.svg");
+    f = opened("a.svg");
     int panels = 0;
     while (fgets(text, sizeof text, f))
         panels +=
@@ -176,9 +167,8 @@ END_TEST
 
 int main(void)
 {
-    if (!mkdtemp(folder))
+    if (folder_make("arvo") < 0)
         return 1;
-    char command[64];
     Suite *suite = suite_create("study arvo");
     TCase *c = tcase_create("arvo");
     tcase_set_timeout(c, 300);
@@ -189,6 +179,6 @@ int main(void)
     tcase_add_test(c, what_is_shown);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }

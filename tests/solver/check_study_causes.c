@@ -6,21 +6,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
+#include "command.h"
+#include "folder.h"
 #include "suite.h"
-
-static char folder[] = "/tmp/causes-XXXXXX";
 
 /* Returns the exit status; standard output goes to FOLDER/out. */
 static int run(const char *more)
 {
-    const char *program = getenv("RADIOSITY");
-    char command[1024];
-    snprintf(command, sizeof command, "%s study causes %s >%s/out 2>%s/err",
-             program ? program : "build/bin/radiosity", more, folder, folder);
-    int status = system(command);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return shell("$RADIOSITY study causes %s >%s/out 2>%s/err", more, folder, folder);
 }
 
 static double number(const json_t *object, const char *key, const char *value)
@@ -48,14 +42,13 @@ static double sum_of(json_t *scene, const char *what)
 
 START_TEST(test_scenes)
 {
-    char more[512], path[64], text[8192];
-    snprintf(path, sizeof path, "%s/causes.json", folder);
+    char more[512], text[8192];
     snprintf(more, sizeof more,
              "examples/scenes/cornell.obj examples/scenes/furnace.obj --rays 100000 "
              "--oracle bf_guarded --set relative=0.5 --json %s",
-             path);
+             in_folder("causes.json"));
     ck_assert_int_eq(run(more), 0);
-    json_t *scenes = json_load_file(path, 0, NULL);
+    json_t *scenes = json_load_file(in_folder("causes.json"), 0, NULL);
     ck_assert_uint_eq(json_array_size(scenes), 2);
     for (size_t i = 0; i < 2; i++) {
         json_t *scene = json_array_get(scenes, i), *all = json_object_get(scene, "together");
@@ -67,8 +60,7 @@ START_TEST(test_scenes)
     }
     json_decref(scenes);
     /* a table of each, and no row of groups, of which there are none */
-    snprintf(path, sizeof path, "%s/out", folder);
-    FILE *in = fopen(path, "r");
+    FILE *in = fopen(in_folder("out"), "r");
     ck_assert_ptr_nonnull(in);
     text[fread(text, 1, sizeof text - 1, in)] = 0;
     (void)fclose(in);
@@ -83,18 +75,17 @@ END_TEST
 /* What cannot be read is told, and no table stands for it. */
 START_TEST(test_missing)
 {
-    char more[256], path[64];
-    snprintf(path, sizeof path, "%s/missing.json", folder);
+    char more[256];
     snprintf(more, sizeof more, "examples/scenes/furnace.obj none.obj --rays 1000 --json %s -q",
-             path);
+             in_folder("missing.json"));
     ck_assert_int_eq(run(more), 1);
-    ck_assert_int_ne(access(path, F_OK), 0);
+    ck_assert_int_ne(access(in_folder("missing.json"), F_OK), 0);
 }
 END_TEST
 
 int main(void)
 {
-    if (!mkdtemp(folder))
+    if (folder_make("causes") < 0)
         return 1;
     Suite *suite = suite_create("study causes");
     TCase *all = tcase_create("all");
@@ -103,7 +94,6 @@ int main(void)
     tcase_add_test(all, test_missing);
     suite_add_tcase(suite, all);
     int failed = suite_failures(suite);
-    char command[64];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }

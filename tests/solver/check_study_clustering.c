@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <jansson.h>
 #include "hierarchy/bvh.h"
+#include "command.h"
 #include "folder.h"
 #include "suite.h"
 
@@ -19,21 +19,9 @@
 /* The exit status; what went to standard error is in folder/log. */
 static int run(const char *format, const char *a, const char *b)
 {
-    const char *program = getenv("RADIOSITY");
-    char rest[512], command[1024];
+    char rest[512];
     snprintf(rest, sizeof rest, format, a, b);
-    snprintf(command, sizeof command, "%s %s 2> %s/log", program ? program : "build/bin/radiosity",
-             rest, folder);
-    int status = system(command);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-static void write_file(const char *name, const char *text)
-{
-    FILE *f = fopen(in_folder(name), "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    ck_assert_int_eq(fclose(f), 0);
+    return shell("$RADIOSITY %s 2> %s/log", rest, folder);
 }
 
 /* Area-weighted relative L1 of the columns B_0 of two tables that `solve --faces` wrote; all
@@ -205,7 +193,7 @@ START_TEST(test_bad_reference)
         {"face,area,B_0\n", "bad.csv: error: no face"},
     };
     char log[1024] = "";
-    write_file("bad.csv", bad[_i].table);
+    folder_write("bad.csv", bad[_i].table);
     ck_assert_int_eq(run("study clustering " SCENE " " HOW " --reference %s -o %s",
                          in_folder("bad.csv"), in_folder("none.csv")),
                      1);

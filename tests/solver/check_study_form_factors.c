@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include "discussion.h"
+#include "command.h"
 #include "folder.h"
 #include "suite.h"
 
@@ -18,25 +18,9 @@
  */
 static int run(const char *format, const char *a, const char *b)
 {
-    const char *program = getenv("RADIOSITY");
-    char rest[512], command[1024];
+    char rest[512];
     snprintf(rest, sizeof rest, format, a, b);
-    snprintf(command, sizeof command, "%s %s > %s/out 2> %s/log",
-             program ? program : "build/bin/radiosity", rest, folder, folder);
-    int status = system(command);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-static int holds(const char *name, const char *text)
-{
-    char line[1024];
-    int found = 0;
-    FILE *f = fopen(in_folder(name), "r");
-    ck_assert_ptr_nonnull(f);
-    while (fgets(line, sizeof line, f))
-        found |= strstr(line, text) != NULL;
-    (void)fclose(f);
-    return found;
+    return shell("$RADIOSITY %s > %s/out 2> %s/log", rest, folder, folder);
 }
 
 enum { KINDS = FORM_FACTOR_CONTOUR, BINS = 6 };
@@ -118,7 +102,7 @@ START_TEST(test_table)
     ck_assert_double_lt(rows[5][BINS].error, 1e-5);
     ck_assert_double_lt(rows[6][BINS].error, 1e-9);
     ck_assert(rows[6][BINS].compared >= 90 && rows[6][BINS].worst < 1e-9);
-    ck_assert(holds("chart.svg", "hemicube") && holds("chart.svg", "</svg>"));
+    ck_assert(folder_holds("chart.svg", "hemicube") && folder_holds("chart.svg", "</svg>"));
 }
 END_TEST
 
@@ -131,7 +115,8 @@ START_TEST(test_outputs)
                          "--set relative=4 --tolerance 1e-2 --threads 1 -o %s%s",
                          in_folder("one.csv"), ""),
                      0);
-    ck_assert(holds("out", "of clusters, left out") && holds("out", "inverse_square"));
+    ck_assert(folder_holds("out", "of clusters, left out")
+              && folder_holds("out", "inverse_square"));
     ck_assert_int_eq(run("study form-factors examples/scenes/furnace_4.obj --oracle clusters "
                          "--set relative=4 --tolerance 1e-2 --threads 2 -q -o %s%s",
                          in_folder("two.csv"), ""),
@@ -146,7 +131,8 @@ START_TEST(test_outputs)
     ck_assert_int_eq(
         run("study form-factors " CORNELL " --set limit=0.4 -q -o %s%s", in_folder("table.md"), ""),
         0);
-    ck_assert(holds("table.md", "| inverse_square |") && holds("table.md", "`radiosity study"));
+    ck_assert(folder_holds("table.md", "| inverse_square |")
+              && folder_holds("table.md", "`radiosity study"));
 }
 END_TEST
 
@@ -159,7 +145,7 @@ START_TEST(test_errors)
     ck_assert_int_eq(fclose(f), 0);
     ck_assert_int_eq(
         run("study form-factors %s -q -o %s", in_folder("alone.obj"), in_folder("none.csv")), 1);
-    ck_assert(holds("log", "no link between two surfaces"));
+    ck_assert(folder_holds("log", "no link between two surfaces"));
     ck_assert_int_ne(access(in_folder("none.csv"), F_OK), 0);
     ck_assert_int_eq(run("study form-factors " CORNELL " --oracle %s%s", "none", ""), 1);
     ck_assert_int_eq(run("study form-factors " CORNELL " -o %s%s", "table.txt", ""), 2);
@@ -203,7 +189,8 @@ START_TEST(test_oracle)
         run("solve examples/scenes/furnace.obj --oracle %s --release dag --statistics - -q%s",
             in_folder("kinds.dag"), ""),
         0);
-    ck_assert(holds("out", "ray_form_factor") && holds("out", "hemicube_form_factor"));
+    ck_assert(folder_holds("out", "ray_form_factor")
+              && folder_holds("out", "hemicube_form_factor"));
 }
 END_TEST
 

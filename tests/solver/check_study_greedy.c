@@ -11,6 +11,7 @@
 #include "study/best_squares.h"
 #include "study/closed_forms.h"
 #include "study/greedy.h"
+#include "command.h"
 #include "folder.h"
 #include "suite.h"
 
@@ -170,13 +171,9 @@ END_TEST
  * exact, and what it leaves is next to nothing. */
 START_TEST(the_default_is_within_twice_the_greedy_optimum)
 {
-    const char *program = getenv("RADIOSITY");
-    char command[1024];
     if (!thorough())
         return;
-    snprintf(command, sizeof command, "%.400s study greedy -q --json %s",
-             program ? program : "build/bin/radiosity", in_folder("greedy.json"));
-    ck_assert_int_eq(system(command), 0);
+    ck_assert_int_eq(shell("$RADIOSITY study greedy -q --json %s", in_folder("greedy.json")), 0);
     json_t *table = json_load_file(in_folder("greedy.json"), 0, NULL);
     ck_assert_int_eq((int)json_array_size(table), 4);
     for (size_t i = 0; i < 4; i++) {

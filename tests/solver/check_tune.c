@@ -8,9 +8,9 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/wait.h>
 
 #include "commands/tune_fit.h"
+#include "command.h"
 #include "folder.h"
 #include "radiosity.h"
 #include "util/graph_defaults.h"
@@ -257,16 +257,13 @@ END_TEST
 
 static json_t *run(int wanted, const char *json, const char *format, ...)
 {
-    const char *program = getenv("RADIOSITY");
     char command[2048];
-    int n = snprintf(command, sizeof command, "%s ", program ? program : "build/bin/radiosity");
     va_list list;
     va_start(list, format);
-    n += vsnprintf(command + n, sizeof command - (size_t)n, format, list);
+    vsnprintf(command, sizeof command, format, list);
     va_end(list);
-    snprintf(command + n, sizeof command - (size_t)n, " -q --json %s", in_folder(json));
-    int status = system(command);
-    ck_assert_msg(WIFEXITED(status) && WEXITSTATUS(status) == wanted, "%s", command);
+    ck_assert_msg(shell("$RADIOSITY %s -q --json %s", command, in_folder(json)) == wanted, "%s",
+                  command);
     json_t *value = json_load_file(in_folder(json), 0, NULL);
     ck_assert_msg(value != NULL, "%s left no JSON", command);
     return value;
