@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
-#include <png.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +15,7 @@
 #include "output/error_image.h"
 #include "output/image.h"
 #include "folder.h"
+#include "read_png.h"
 #include "suite.h"
 
 /* ---- a row of squares, 1 m wide, that the eye looks at ---- */
@@ -87,32 +87,12 @@ static void row_free(struct row *r)
     free(r);
 }
 
-struct pixels {
-    int width, height;
-    unsigned char *rgb;
-};
-
-static struct pixels load(const char *path)
-{
-    png_image image = {.version = PNG_IMAGE_VERSION};
-    ck_assert_int_ne(png_image_begin_read_from_file(&image, path), 0);
-    image.format = PNG_FORMAT_RGB;
-    struct pixels p = {(int)image.width, (int)image.height, malloc(PNG_IMAGE_SIZE(image))};
-    ck_assert_int_ne(png_image_finish_read(&image, NULL, p.rgb, 0, NULL), 0);
-    return p;
-}
-
 static struct pixels draw(struct row *r, int width, int height, int mesh)
 {
     ck_assert_int_eq(error_image_write(in_folder("e.png"), &r->solution, &r->values, &r->seen,
                                        &r->view, width, height, mesh),
                      0);
     return load(in_folder("e.png"));
-}
-
-static const unsigned char *at(const struct pixels *p, int x, int y)
-{
-    return &p->rgb[3 * (y * p->width + x)];
 }
 
 static int red_less_blue(const unsigned char *c)

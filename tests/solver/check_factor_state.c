@@ -1,13 +1,13 @@
 /* check_factor_state.c - saves of `viewfactors --resume` that fail: told once, tried again later.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "captured.h"
 #include "commands/factor_state.h"
 #include "folder.h"
 #include "suite.h"
@@ -17,18 +17,12 @@
 static int save(const struct RadExchangeState *host)
 {
     char said[1000];
-    fflush(stderr);
-    const int was = dup(2), to = open(in_folder("said"), O_RDWR | O_CREAT | O_TRUNC, 0600);
-    dup2(to, 2);
+    struct captured err = capture_start(STDERR_FILENO);
     const int failed = host->write(host->user, "x", 1) || host->write(host->user, NULL, 0);
-    dup2(was, 2);
-    close(was);
-    lseek(to, 0, SEEK_SET);
-    const ssize_t size = read(to, said, sizeof said - 1);
-    close(to);
+    capture_end(&err, said, sizeof said);
     int lines = 0;
-    for (ssize_t i = 0; i < size; i++)
-        lines += said[i] == '\n';
+    for (const char *c = said; *c; c++)
+        lines += *c == '\n';
     ck_assert(failed || lines == 0);
     return failed ? lines : -1;
 }

@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
-#include <png.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,6 +26,7 @@
 #include "output/picture.h"
 #include "output/raster.h"
 #include "folder.h"
+#include "read_png.h"
 #include "suite.h"
 
 /* ---- a solution made by hand ---- */
@@ -352,26 +352,6 @@ START_TEST(test_frame_straight_down)
     stage_free(s);
 }
 END_TEST
-
-struct pixels {
-    int width, height;
-    unsigned char *rgb;
-};
-
-static struct pixels load(const char *path)
-{
-    png_image image = {.version = PNG_IMAGE_VERSION};
-    ck_assert_int_ne(png_image_begin_read_from_file(&image, path), 0);
-    image.format = PNG_FORMAT_RGB;
-    struct pixels p = {(int)image.width, (int)image.height, malloc(PNG_IMAGE_SIZE(image))};
-    ck_assert_int_ne(png_image_finish_read(&image, NULL, p.rgb, 0, NULL), 0);
-    return p;
-}
-
-static const unsigned char *at(const struct pixels *p, int x, int y)
-{
-    return &p->rgb[3 * (y * p->width + x)];
-}
 
 /* Which channel leads clearly, 0 to 2, or -1. */
 static int hue(const unsigned char *c)

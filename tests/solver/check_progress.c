@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
+#include "captured.h"
 #include "suite.h"
 #include "util/clock.h"
 #include "util/progress.h"
@@ -13,10 +14,7 @@
 static const char *told(int quiet, double apart, const double *shares, int count)
 {
     static char text[1000];
-    FILE *file = tmpfile();
-    int old = dup(STDERR_FILENO);
-    fflush(stderr);
-    ck_assert_int_eq(dup2(fileno(file), STDERR_FILENO), STDERR_FILENO);
+    struct captured err = capture_start(STDERR_FILENO);
     struct progress p;
     progress_start(&p, quiet);
     for (int i = 0; i < count; i++) {
@@ -26,12 +24,7 @@ static const char *told(int quiet, double apart, const double *shares, int count
         ck_assert_int_eq(progress_show(&p, &at), 0);
     }
     progress_end(&p);
-    fflush(stderr);
-    dup2(old, STDERR_FILENO);
-    close(old);
-    rewind(file);
-    text[fread(text, 1, sizeof text - 1, file)] = 0;
-    fclose(file);
+    capture_end(&err, text, sizeof text);
     return text;
 }
 

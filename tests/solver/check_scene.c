@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <dirent.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "captured.h"
 #include "util/atomic_file.h"
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
@@ -31,12 +31,8 @@ static char last_error[2048];
 
 static const char *write_text(const char *name, const char *text)
 {
-    const char *path = in_folder(name);
-    FILE *f = fopen(path, "w");
-    ck_assert_ptr_nonnull(f);
-    fputs(text, f);
-    ck_assert_int_eq(fclose(f), 0);
-    return path;
+    folder_write(name, text);
+    return in_folder(name);
 }
 
 static char *read_text(const char *path)
@@ -52,20 +48,9 @@ static char *read_text(const char *path)
 /* Read a scene with stderr kept in last_error. */
 static int read_scene(struct scene *s, const char *path, const struct scene_options *options)
 {
-    const char *log = in_folder("stderr");
-    fflush(stderr);
-    int saved = dup(2), to = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    ck_assert(saved >= 0 && to >= 0);
-    dup2(to, 2);
+    struct captured err = capture_start(STDERR_FILENO);
     int result = scene_read(s, path, options);
-    fflush(stderr);
-    dup2(saved, 2);
-    close(saved);
-    close(to);
-    FILE *f = fopen(log, "r");
-    size_t size = fread(last_error, 1, sizeof last_error - 1, f);
-    last_error[size] = 0;
-    fclose(f);
+    capture_end(&err, last_error, sizeof last_error);
     return result;
 }
 
@@ -274,7 +259,7 @@ START_TEST(test_polygons)
     } cases[] = {
         {"v 0 0 0\nv 1 0 0\nv 1 1 0.001\nv 0 1 0\nf 1 2 3 4\n", 2, 1},  /* not flat */
         {"v 0 0 0\nv 1 0 0\nv 1 1 0.0001\nv 0 1 0\nf 1 2 3 4\n", 2, 1}, /* not so for rays */
-        {"v 0 0 0\nv 1 0 0\nv 1 1 1e-6\nv 0 1 0\nf 1 2 3 4\n", 1, 1}, /* flat enough */
+        {"v 0 0 0\nv 1 0 0\nv 1 1 1e-6\nv 0 1 0\nf 1 2 3 4\n", 1, 1},   /* flat enough */
         {"v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n", 2,
          1}, /* an arrow head, notch at (.5, .5) */
         {"v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n", 4, 3}, /* an L */

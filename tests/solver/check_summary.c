@@ -3,8 +3,8 @@
 #include <check.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "captured.h"
 #include "commands/summary.h"
 #include "options/options.h"
 #include "suite.h"
@@ -31,18 +31,9 @@ static json_t *summarise(char *text, size_t size)
                                     .oracle = oracle,
                                     .measured = &measured,
                                     .promise = &promise};
-    FILE *file = tmpfile();
-    ck_assert_ptr_nonnull(file);
-    fflush(stdout);
-    int before = dup(STDOUT_FILENO);
-    dup2(fileno(file), STDOUT_FILENO);
+    struct captured out = capture_start(STDOUT_FILENO);
     summary_print(&summary);
-    fflush(stdout);
-    dup2(before, STDOUT_FILENO);
-    close(before);
-    rewind(file);
-    text[fread(text, 1, size - 1, file)] = 0;
-    (void)fclose(file);
+    capture_end(&out, text, size);
     json_t *json = summary_json(&summary);
     ck_assert_ptr_nonnull(json);
     radReleaseOracle(oracle);
@@ -221,18 +212,9 @@ static void print_worst(char *text, size_t size, double share, double sure)
                                            .worst = 3,
                                            .worst_share = share,
                                            .worst_sure = sure}};
-    FILE *file = tmpfile();
-    ck_assert_ptr_nonnull(file);
-    fflush(stdout);
-    int before = dup(STDOUT_FILENO);
-    dup2(fileno(file), STDOUT_FILENO);
+    struct captured out = capture_start(STDOUT_FILENO);
     measured_print(&measured, 4, 0);
-    fflush(stdout);
-    dup2(before, STDOUT_FILENO);
-    close(before);
-    rewind(file);
-    text[fread(text, 1, size - 1, file)] = 0;
-    (void)fclose(file);
+    capture_end(&out, text, size);
     measured = (struct measured){0};
 }
 

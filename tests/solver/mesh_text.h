@@ -4,11 +4,10 @@
 #define MESH_TEXT_H
 
 #include <check.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <unistd.h>
 
+#include "captured.h"
 #include "folder.h"
 #include "scene/scene_file.h"
 
@@ -42,17 +41,9 @@ static inline const char *said_of(const char *path, const struct scene_options *
 {
     static char said[1000];
     struct scene_file f;
-    fflush(stderr);
-    const int was = dup(2), to = open(in_folder("said"), O_RDWR | O_CREAT | O_TRUNC, 0600);
-    dup2(to, 2);
+    struct captured err = capture_start(STDERR_FILENO);
     const int result = scene_file_read(&f, path, how);
-    fflush(stderr);
-    dup2(was, 2);
-    close(was);
-    lseek(to, 0, SEEK_SET);
-    const ssize_t size = read(to, said, sizeof said - 1);
-    close(to);
-    said[size > 0 ? size : 0] = '\0';
+    capture_end(&err, said, sizeof said);
     ck_assert_msg(result == wanted, "%s: %s", path, result ? said : "is read");
     if (result == 0)
         scene_file_free(&f);
