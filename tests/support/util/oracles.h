@@ -4,7 +4,6 @@
 #ifndef SOLVER_ORACLES_H
 #define SOLVER_ORACLES_H
 
-#include <stdio.h>
 #include "oracle/oracles.h"
 
 /* As oracle_open, with the hand-written releases. Returns NULL after a message on stderr. */
@@ -15,8 +14,5 @@ int oracles_by_hand(const char *oracle);
 
 /* Apply the count texts "NAME=VALUE" to a refiner. Returns 0, or -1 after a message. */
 int oracles_set(struct refiner *refiner, char *const *settings, int count);
-
-/* The built-in oracles and their parameters, for --help and `radiosity oracles`. */
-void oracles_print(FILE *out);
 
 #endif
