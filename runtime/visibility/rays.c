@@ -101,19 +101,6 @@ static void fill_packet(const struct rays *rays, int count, const struct segment
     }
 }
 
-static void cast_packet(const struct rays *rays, const int *valid, struct RTCRay16 *packet)
-{
-#if EMBREE == 4
-    struct RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    rtcOccluded16(valid, rays->scene, packet, &arguments);
-#else
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded16(valid, rays->scene, &context, packet);
-#endif
-}
-
 /* Does nothing stand in the way of any of them, for sure? One that may be stopped is cast with all
  * its company: rays of a packet are what they are together. */
 static int all_free(const struct rays *rays, int count, const struct segment *segments)
@@ -150,11 +137,11 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
         fill_packet(rays, n, &segments[first], &packet);
         if (timed) { /* less what reading the clock takes */
             uint64_t once = now(), start = now();
-            cast_packet(rays, valid, &packet);
+            embree_occluded_16(rays->scene, valid, &packet);
             uint64_t end = now(), reading = start - once;
             spent += end - start > reading ? end - start - reading : 0;
         } else {
-            cast_packet(rays, valid, &packet);
+            embree_occluded_16(rays->scene, valid, &packet);
         }
         for (int i = 0; i < n; i++)
             hits |= (uint64_t)(packet.tfar[i] < 0) << (first + i); /* Embree: -inf when occluded */
@@ -308,12 +295,7 @@ int rays_build(struct rays *rays, const char **cause)
         return -1;
     }
     rays->scene = rtcNewScene(rays->device);
-#if EMBREE == 4
-    rtcSetSceneFlags(rays->scene,
-                     RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
-#else
-    rtcSetSceneFlags(rays->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-#endif
+    rtcSetSceneFlags(rays->scene, RTC_SCENE_FLAG_ROBUST | EMBREE_FILTERED);
     rtcSetSceneBuildQuality(rays->scene, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = faces_geometry(rays, h);
     const int room = embree_has_memory(h->face_count);
@@ -399,18 +381,7 @@ static void fronts_alone(const struct RTCFilterFunctionNArguments *a)
 static void intersect(const struct rays *rays, struct RTCRayHit *query, int fronts)
 {
     query->hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if EMBREE == 4
-    struct RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.filter = fronts ? fronts_alone : NULL;
-    arguments.flags = fronts ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_NONE;
-    rtcIntersect1(rays->scene, query, &arguments);
-#else
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.filter = fronts ? fronts_alone : NULL;
-    rtcIntersect1(rays->scene, &context, query);
-#endif
+    embree_intersect(rays->scene, query, fronts ? fronts_alone : NULL);
 }
 
 /* Where two one-sided faces lie back to back in one plane, a ray meets either of them first, by
@@ -522,18 +493,7 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
         query.ray.id[i] = query.ray.flags[i] = 0;
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    {
-#if EMBREE == 4
-        struct RTCIntersectArguments arguments;
-        rtcInitIntersectArguments(&arguments);
-        rtcIntersect16(valid, rays->scene, &query, &arguments);
-#else
-        struct RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect16(valid, rays->scene, &context, &query);
-#endif
-    }
+    embree_intersect_16(rays->scene, valid, &query);
     for (int i = 0; i < 16; i++) {
         if (!valid[i] || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
             || rays->behind[rays->face[query.hit.primID[i]]] != BLACK_BACK)
@@ -562,15 +522,7 @@ int rays_blocked(const struct rays *rays, const double from[3], const double dir
 {
     _Alignas(16) struct RTCRay ray;
     ray_from(&ray, rays, from, direction, 1);
-#if EMBREE == 4
-    struct RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    rtcOccluded1(rays->scene, &ray, &arguments);
-#else
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(rays->scene, &context, &ray);
-#endif
+    embree_occluded(rays->scene, &ray);
     return ray.tfar < 0;
 }
 

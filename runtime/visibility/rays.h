@@ -1,5 +1,5 @@
 /* rays.h - the host services of a scene: occlusion by Embree, candidates from the clusters, totals
- * for the oracles. Embree 3 or 4, whichever the system has, is known to rays.c alone.
+ * for the oracles.
  * SPDX-License-Identifier: MIT */
 #ifndef RAYS_H
 #define RAYS_H

@@ -126,13 +126,7 @@ static inline int64_t path_step(const struct path_scene *p, uint32_t face, doubl
     hit.ray.tfar = INFINITY;
     hit.ray.mask = ~0u;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if EMBREE == 4
-    rtcIntersect1(p->rays, &hit, NULL);
-#else
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(p->rays, &context, &hit);
-#endif
+    embree_intersect(p->rays, &hit, NULL);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return -1;
     uint32_t met = p->face[hit.hit.primID];

@@ -143,13 +143,7 @@ static void cast_bare(void)
         _Alignas(64) int valid[PACKET];
         for (int k = 0; k < PACKET; k++)
             valid[k] = k < bench.valid[i] ? -1 : 0;
-#if EMBREE == 4
-        rtcOccluded16(valid, bench.scene, &bench.packets[i], NULL);
-#else
-        struct RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcOccluded16(valid, bench.scene, &context, &bench.packets[i]);
-#endif
+        embree_occluded_16(bench.scene, valid, &bench.packets[i]);
     }
 }
 
