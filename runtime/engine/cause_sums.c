@@ -13,10 +13,6 @@
 #include <string.h>
 #include "engine/cause_sums.h"
 
-/* 97.5 % of Student's t with REPLICATES - 1 degrees of freedom. */
-#define T_QUANTILE 2.131449545559323
-_Static_assert(REPLICATES == 16, "T_QUANTILE is that of 15 degrees of freedom");
-
 /* What a visibility that is a mean over the polygon makes after all reflections, and what is left
  * when that is taken from the whole: it differs from place to place, and so does the growth. */
 static void part_spread(struct cause_polygon *p, uint32_t bands)
@@ -84,7 +80,7 @@ static struct RadMeasure measure(const double value[REPLICATES], double whole)
         mean += value[r] / REPLICATES;
     for (int r = 0; r < REPLICATES; r++)
         square += (value[r] - mean) * (value[r] - mean);
-    double half = T_QUANTILE * sqrt(square / (REPLICATES * (REPLICATES - 1))) / whole;
+    double half = REPLICATES_T * sqrt(square / (REPLICATES * (REPLICATES - 1))) / whole;
     mean /= whole;
     return (struct RadMeasure){mean, mean - half, mean + half};
 }

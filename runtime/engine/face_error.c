@@ -11,150 +11,39 @@
  *
  * Power. The sum of e^ over that of R^, with Student's interval of the replicates.
  *
- * L1. The sum of |e^| is above that of |e|, for noise adds where it should cancel. So the question
- * is turned round: which errors would, with the noise that is known, be expected to show this sum?
- * A normal e with a deviation of s has E|e| = m erf(m / (s sqrt 2)) + s sqrt(2 / pi) exp(-m^2 / 2
- * s^2), the folded normal. Let x = |e^| / s. From FACE_ERROR_CERTAIN on, an error is as it is seen.
- * The rest, in classes of polygons with about as many particles, are taken as c s x^a: c is what
- * makes the expected sum of |e^| the observed one, a what does the same for squares. (a = 0: all
- * errors are alike; 1, as good as: they are normal; more: few polygons have them all.)
+ * L1. The sum of |e^| is above that of |e|, for noise adds where it should cancel. Which sum of
+ * errors stands behind it, and in which interval, noisy_sum.c tells. What replicates show the
+ * noises of polygons to have in common widens or narrows it. The moduli of counts of n are not
+ * quite those of differences of counts of n / 2: what noise adds is doubted by 1 / 8 n, which no
+ * number of polygons mends.
  *
- * The interval. Among the uncertain: all sums of errors, m^2 raised or lowered alike, that would
- * not make the observed sum a surprise at 95 %, a sum of few being skewed (Cornish and Fisher).
- * With it goes what squares leave open of a, and the noise of certain ones: the surprise is shared
- * between them as is worst. What replicates show the noises of polygons to have in common widens
- * or narrows all of it. The moduli of counts of n are not quite those of differences of counts of
- * n / 2: what noise adds is doubted by 1 / 8 n, which no number of polygons mends. Where nothing
- * but noise is seen, the upper end is no lower than for a sum one standard deviation below what
- * noise alone makes: a power-constrained limit.
- *
- * [folded normal: Leone, Nelson and Nottingham 1961; interval by inversion of a test: Neyman 1937;
- * skewed sums: Cornish and Fisher 1938; the limit: Cowan et al. 2011; the rest: derived here,
- * coverage: tests/runtime/check_measured_error.c]
+ * [derived here; coverage: tests/runtime/check_measured_error.c]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 #include "engine/face_error.h"
+#include "engine/noisy_sum.h"
 #include "engine/polygon_rows.h"
 #include "engine/reflected_light.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "util/thread_pool.h"
 
-enum { CLASSES = 24, BINS = 24, HALVINGS = 24, TRIES = 10, SPLITS = 4 };
-
-/* of m^2, raised: none that is not certain is left; m is never ten times FACE_ERROR_CERTAIN */
-#define LOWEST (-100 * FACE_ERROR_CERTAIN * FACE_ERROR_CERTAIN)
-#define NORMAL_QUANTILE 1.959963984540054 /* 97.5 % */
-/* 97.5 % of Student's t with REPLICATES - 1 degrees of freedom. */
-#define T_QUANTILE 2.131449545559323
-_Static_assert(REPLICATES == 16, "T_QUANTILE is that of 15 degrees of freedom");
-
-/* Polygons and bands alike in number of particles and in x = |e^| / s: sums of s, s^2 and s x. */
-struct bin {
-    double s, square, x;
-    double doubt;        /* sum of s times how uncertain it is, as a share */
-    double count, error; /* error: m of each, true errors over s, as far as can be told */
-};
-
 struct counted {
     struct polygon_rows rows; /* the polygons whose values are here */
     uint32_t bands;
-    size_t values;         /* polygons * bands */
-    double *solved;        /* [values]: R~ (W) */
-    double *replicate;     /* [REPLICATES][values]: R^ of each (W) */
-    double *mean;          /* [values]: R^ */
-    double *deviation;     /* [values]: s (W) */
-    double scale[CLASSES]; /* s of a class by its moduli over that by its squares */
+    size_t values;               /* polygons * bands */
+    double *solved;              /* [values]: R~ (W) */
+    double *replicate;           /* [REPLICATES][values]: R^ of each (W) */
+    double *mean;                /* [values]: R^ */
+    double *deviation;           /* [values]: s (W) */
+    double scale[NOISY_CLASSES]; /* s of a class by its moduli over that by its squares */
     double *count;        /* [values]: particles by the solution, as far as what came allows that */
     double *weight;       /* [values]: room to work in */
     double reflected;     /* sum of R^ (W) */
     unsigned char *class; /* [values] */
-    struct bin bin[CLASSES][BINS];
-    double sure, sure_square;     /* of those whose x is beyond all bins: sums of |e^| and s^2 */
-    double shape_low, shape_high; /* what shapes may take off and add (W) */
+    struct noisy_sum sum;
 };
-
-static double folded(double m, double s)
-{
-    double x = m / (s * sqrt(2));
-    return m * erf(x) + s * sqrt(2 / LAMBERT_PI) * exp(-x * x);
-}
-
-/* The third central moment of |e|, e normal about x with a deviation of 1. */
-static double skew(double x)
-{
-    double first = folded(x, 1), third = (x * x * x + 3 * x) * erf(x / sqrt(2))
-                                         + (x * x + 2) * sqrt(2 / LAMBERT_PI) * exp(-x * x / 2);
-    return fmax(0, third - 3 * first * (1 + x * x) + 2 * first * first * first);
-}
-
-/* The expected sum of |e^|, its moments, and the sum of errors. */
-struct expected {
-    double sum, variance, skew, errors; /* skew: the third central moment */
-};
-
-/* With every m^2 raised by so much, and noise less by so many times its doubt; certain ones are as
- * they are. */
-static struct expected expect_all(const struct counted *c, double raise, int less)
-{
-    struct expected all = {0, 0, 0, 0};
-    for (int k = 0; k < CLASSES; k++)
-        for (int i = 0; i < BINS; i++) {
-            const struct bin *b = &c->bin[k][i];
-            if (!(b->s > 0))
-                continue;
-            double x = sqrt(fmax(0, b->error * b->error + raise)), noise = b->s - less * b->doubt,
-                   e = folded(x, noise / b->s);
-            all.sum += b->s * e;
-            all.variance += b->square * fmax(0, 1 + x * x - e * e);
-            all.skew += b->square * (b->square / b->s) * skew(x);
-            all.errors += b->s * x;
-        }
-    return all;
-}
-
-/* Errors m = c x^shape in a class, c such that the expected sum is what is seen. Returns the sum of
- * s^2 m^2; *errors: that of s m. */
-static double fit(struct bin bins[BINS], double shape, double *errors)
-{
-    double low = 0, high = 2 * FACE_ERROR_CERTAIN, seen = 0, base[BINS], square = 0;
-    for (int i = 0; i < BINS; i++) {
-        seen += bins[i].x;
-        base[i] = bins[i].s > 0 ? pow(bins[i].x / bins[i].s, shape) : 0;
-    }
-    for (int i = 0; i < HALVINGS; i++) {
-        double middle = 0.5 * (low + high), sum = 0;
-        for (int j = 0; j < BINS; j++)
-            sum += bins[j].s > 0 ? bins[j].s * folded(middle * base[j], 1) : 0;
-        if (sum > seen)
-            high = middle;
-        else
-            low = middle;
-    }
-    *errors = 0;
-    for (int i = 0; i < BINS; i++) {
-        bins[i].error = low * base[i];
-        *errors += bins[i].s * bins[i].error;
-        square += bins[i].square * bins[i].error * bins[i].error;
-    }
-    return square;
-}
-
-/* The shape that makes the sum of squares what is asked for. */
-static double shape_of(struct bin bins[BINS], double square, double *errors)
-{
-    double low = 0, high = FACE_ERROR_SHAPE;
-    for (int i = 0; i < TRIES; i++) {
-        double middle = 0.5 * (low + high);
-        if (fit(bins, middle, errors) > square)
-            high = middle;
-        else
-            low = middle;
-    }
-    fit(bins, low, errors);
-    return low;
-}
 
 /* Sums over the faces of a polygon: what was solved, and of each replicate. Returns 0, or -1 when
  * out of memory. */
@@ -210,7 +99,7 @@ static double variance_seen(const struct counted *c, size_t i)
 static void find_deviations(struct counted *c, const struct problem *p, const struct hierarchy *h,
                             const struct tally *tally)
 {
-    double seen[CLASSES] = {0}, chance[CLASSES] = {0}, count[CLASSES] = {0},
+    double seen[NOISY_CLASSES] = {0}, chance[NOISY_CLASSES] = {0}, count[NOISY_CLASSES] = {0},
            one = tally_power_of_one(tally);
     double *rho = c->deviation;                    /* until s is known */
     for (uint32_t f = 0; f < h->face_count; f++) { /* sides of one polygon have one rho */
@@ -232,18 +121,18 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
             c->count[i] = drawn / (rho[i] * one);
         }
         int class = particles > 1 ? (int)(0.5 * log2(particles)) : 0;
-        c->class[i] = (unsigned char)(class < CLASSES ? class : CLASSES - 1);
+        c->class[i] = (unsigned char)(class < NOISY_CLASSES ? class : NOISY_CLASSES - 1);
         seen[c->class[i]] += variance_seen(c, i);
         chance[c->class[i]] += by_chance;
         count[c->class[i]] += by_chance > 0;
         c->deviation[i] = by_chance;
     }
-    polygon_rows_sum(&c->rows, seen, CLASSES);
-    polygon_rows_sum(&c->rows, chance, CLASSES);
-    polygon_rows_sum(&c->rows, count, CLASSES);
+    polygon_rows_sum(&c->rows, seen, NOISY_CLASSES);
+    polygon_rows_sum(&c->rows, chance, NOISY_CLASSES);
+    polygon_rows_sum(&c->rows, count, NOISY_CLASSES);
     /* of few particles replicates may have met none of a class: as if one polygon more were by
      * chance */
-    for (int k = 0; k < CLASSES && !tally->by_paths; k++) {
+    for (int k = 0; k < NOISY_CLASSES && !tally->by_paths; k++) {
         double few = FACE_ERROR_FEW / (FACE_ERROR_FEW + ldexp(1, 2 * k)),
                more = count[k] > 0 ? few * chance[k] / count[k] : 0;
         seen[k] += more;
@@ -302,7 +191,7 @@ static double doubt_of(int class)
  * less than four particles come both are something else. */
 static void find_scales(struct counted *c)
 {
-    double apart[CLASSES] = {0}, normal[CLASSES] = {0}, count[CLASSES] = {0};
+    double apart[NOISY_CLASSES] = {0}, normal[NOISY_CLASSES] = {0}, count[NOISY_CLASSES] = {0};
     for (size_t i = 0; i < c->values; i++) {
         double sum = 0;
         if (!(c->deviation[i] > 0))
@@ -317,10 +206,10 @@ static void find_scales(struct counted *c)
         normal[c->class[i]] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
         count[c->class[i]]++;
     }
-    polygon_rows_sum(&c->rows, apart, CLASSES);
-    polygon_rows_sum(&c->rows, normal, CLASSES);
-    polygon_rows_sum(&c->rows, count, CLASSES);
-    for (int k = 0; k < CLASSES; k++)
+    polygon_rows_sum(&c->rows, apart, NOISY_CLASSES);
+    polygon_rows_sum(&c->rows, normal, NOISY_CLASSES);
+    polygon_rows_sum(&c->rows, count, NOISY_CLASSES);
+    for (int k = 0; k < NOISY_CLASSES; k++)
         c->scale[k] =
             normal[k] > 0
                 ? 1 + (apart[k] / normal[k] - 1) * count[k] / (count[k] + FACE_ERROR_ALIKE)
@@ -333,32 +222,33 @@ static double noise_by_moduli(const struct counted *c, size_t i)
     return c->deviation[i] * c->scale[c->class[i]];
 }
 
-/* The bin of a value; BINS: its error is as it is seen. Where next to no particle comes moduli are
- * small because few values have them all, so an error has to stand out of squares as well. */
+/* The bin of a value; NOISY_BINS: its error is as it is seen. Where next to no particle comes
+ * moduli are small because few values have them all, so an error has to stand out of squares as
+ * well. */
 static int bin_of(const struct counted *c, size_t i)
 {
     const double s = noise_by_moduli(c, i), off = fabs(c->solved[i] - c->mean[i]);
     if (off >= FACE_ERROR_CERTAIN * fmax(s, c->deviation[i]))
-        return BINS;
-    return (int)fmin(off / s * (BINS / FACE_ERROR_CERTAIN), BINS - 1);
+        return NOISY_BINS;
+    return (int)fmin(off / s * (NOISY_BINS / FACE_ERROR_CERTAIN), NOISY_BINS - 1);
 }
 
 /* Put values into bins and find their errors. */
 static void find_errors(struct counted *c)
 {
-    double seen[CLASSES] = {0};
+    double seen[NOISY_CLASSES] = {0};
     for (size_t i = 0; i < c->values; i++) {
         double rms = c->deviation[i], s = noise_by_moduli(c, i),
                off = fabs(c->solved[i] - c->mean[i]);
         if (!(s > 0))
             continue;
         const int at = bin_of(c, i);
-        if (at == BINS) {
-            c->sure += off;
-            c->sure_square += s * s;
+        if (at == NOISY_BINS) {
+            c->sum.sure += off;
+            c->sum.sure_square += s * s;
             continue;
         }
-        struct bin *b = &c->bin[c->class[i]][at];
+        struct noisy_bin *b = &c->sum.bin[c->class[i]][at];
         b->s += s;
         b->square += s * s;
         b->x += off;
@@ -366,34 +256,12 @@ static void find_errors(struct counted *c)
         b->count++;
         seen[c->class[i]] += off * off - rms * rms;
     }
-    _Static_assert(sizeof(struct bin) == 6 * sizeof(double), "bins are added as they stand");
-    polygon_rows_sum(&c->rows, &c->bin[0][0].s, (size_t)CLASSES * BINS * 6);
-    polygon_rows_sum(&c->rows, seen, CLASSES);
-    polygon_rows_sum(&c->rows, &c->sure, 1);
-    polygon_rows_sum(&c->rows, &c->sure_square, 1);
-    for (int k = 0; k < CLASSES; k++) {
-        int filled = 0;
-        double spread = 0, at = 0, less = 0, more = 0;
-        for (int i = 0; i < BINS; i++) {
-            const struct bin *b = &c->bin[k][i];
-            double x = b->s > 0 ? b->x / b->s : 0;
-            filled += b->count > 0;
-            if (b->count > 0)
-                spread += b->square * b->square / b->count
-                          * (2 + 1 / exp2(2 * k) + 4 * fmax(0, x * x - 1));
-        }
-        if (filled == 0)
-            continue;
-        if (filled == 1) { /* has no shape */
-            fit(c->bin[k], 1, &at);
-            continue;
-        }
-        shape_of(c->bin[k], seen[k] + NORMAL_QUANTILE * sqrt(spread), &less);
-        shape_of(c->bin[k], seen[k] - NORMAL_QUANTILE * sqrt(spread), &more);
-        shape_of(c->bin[k], seen[k], &at);
-        c->shape_low += (at - less) * (at - less);
-        c->shape_high += (more - at) * (more - at);
-    }
+    _Static_assert(sizeof(struct noisy_bin) == 6 * sizeof(double), "bins are added as they stand");
+    polygon_rows_sum(&c->rows, &c->sum.bin[0][0].s, (size_t)NOISY_CLASSES * NOISY_BINS * 6);
+    polygon_rows_sum(&c->rows, seen, NOISY_CLASSES);
+    polygon_rows_sum(&c->rows, &c->sum.sure, 1);
+    polygon_rows_sum(&c->rows, &c->sum.sure_square, 1);
+    noisy_sum_fit(&c->sum, seen);
 }
 
 /* The variance of sum g R^ over all values (W2), by the replicates. g: c->weight. */
@@ -411,80 +279,25 @@ static double variance_of_sum(const struct counted *c)
     return differ / (REPLICATES * (REPLICATES - 1.0));
 }
 
-/* How far the expected sum is from the observed one, in standard deviations that the skewness of
- * sums of few has been taken from; `common`: by what the noise that values share multiplies the
- * variance. */
-static double surprise(const struct counted *c, double raise, int less, double observed,
-                       double common)
-{
-    struct expected e = expect_all(c, raise, less);
-    if (!(e.variance > 0))
-        return 0;
-    double skewed = e.skew / pow(e.variance, 1.5) * (T_QUANTILE * T_QUANTILE - 1) / 6;
-    return (e.sum - observed) / sqrt(e.variance * common) + skewed;
-}
-
-/* How far all m^2, raised or lowered alike, may take the sum of errors (W) until what is observed
- * would be a surprise of so many standard deviations. */
-static double reach(const struct counted *c, int sign, double surprised, double observed,
-                    double common)
-{
-    double near = 0, far = sign < 0 ? LOWEST : 1;
-    struct expected now = expect_all(c, 0, 0);
-    if (!(now.variance > 0))
-        return 0;
-    while (sign > 0 && far < 1e12 && surprise(c, far, sign, observed, common) < surprised)
-        far *= 4;
-    for (int i = 0; i < HALVINGS; i++) {
-        double middle = 0.5 * (near + far);
-        if (sign * surprise(c, middle, sign, observed, common) < surprised)
-            near = middle;
-        else
-            far = middle;
-    }
-    return sign * (expect_all(c, near, sign).errors - now.errors);
-}
-
-/* The most that errors may be above or below what they are thought to be (W): 95 % are shared, as
- * is worst, between what is seen through noise, and the certain ones with the shape of the rest. */
-static double farthest(const struct counted *c, int sign, double observed, double common)
-{
-    double shape = sign < 0 ? c->shape_low : c->shape_high, most = 0;
-    double sure = sqrt(T_QUANTILE * T_QUANTILE * c->sure_square * common + shape);
-    for (int i = 0; i <= SPLITS; i++) {
-        double angle = LAMBERT_PI / 2 * i / SPLITS;
-        double all = reach(c, sign, T_QUANTILE * cos(angle), observed, common) + sure * sin(angle);
-        most = fmax(most, all);
-    }
-    return most;
-}
-
 static struct RadMeasure measure_l1(struct counted *c)
 {
-    struct expected now = expect_all(c, 0, 0);
-    double observed = 0, value = now.errors + c->sure, all = c->reflected, independent = 0;
-    for (int k = 0; k < CLASSES; k++)
-        for (int i = 0; i < BINS; i++)
-            observed += c->bin[k][i].x;
+    const struct noisy_errors errors = noisy_sum_errors(&c->sum);
+    double value = errors.sum, all = c->reflected, independent = 0, below, above;
     for (size_t i = 0; i < c->values; i++) { /* d |e^| / d R^, and that of the reflected light */
         double off = c->solved[i] - c->mean[i];
         double s = noise_by_moduli(c, i), x = s > 0 ? off / s : 0;
-        const int at = s > 0 ? bin_of(c, i) : BINS;
-        if (at < BINS)
-            x = copysign(c->bin[c->class[i]][at].error, x);
+        const int at = s > 0 ? bin_of(c, i) : NOISY_BINS;
+        if (at < NOISY_BINS)
+            x = copysign(c->sum.bin[c->class[i]][at].error, x);
         double slope = erf(x / sqrt(2));
         c->weight[i] = -slope - value / all;
         independent += slope * slope * s * s;
     }
     polygon_rows_sum(&c->rows, &independent, 1);
-    double seen = variance_of_sum(c), chance = now.variance + c->sure_square;
+    double seen = variance_of_sum(c), chance = errors.variance;
     double common = chance > 0 ? fmax(0.25, 1 + (seen - independent) / chance) : 1;
-    /* A sum that is small by luck must not make the interval that of a better measurement. */
-    struct expected none = expect_all(c, LOWEST, 0);
-    double lucky = none.sum - sqrt(none.variance * common);
-    double low = farthest(c, -1, observed, common),
-           high = farthest(c, 1, fmax(observed, lucky), common);
-    return (struct RadMeasure){value / all, fmax(0, value - low) / all, (value + high) / all};
+    noisy_sum_reach(&c->sum, common, &below, &above);
+    return (struct RadMeasure){value / all, fmax(0, value - below) / all, (value + above) / all};
 }
 
 /* Particles that lose light in one way may all have been spared: one more is allowed for, which is
@@ -500,8 +313,8 @@ static struct RadMeasure measure_power(struct counted *c, double particles)
     double noise = variance_of_sum(c) / (c->reflected * c->reflected),
            deviation = sqrt(noise + 1 / (particles * particles)) * solved / c->reflected;
     double value = solved / c->reflected - 1;
-    return (struct RadMeasure){value, value - T_QUANTILE * deviation,
-                               value + T_QUANTILE * deviation};
+    return (struct RadMeasure){value, value - REPLICATES_T * deviation,
+                               value + REPLICATES_T * deviation};
 }
 
 /* What is shown of all ranks' polygons. */
