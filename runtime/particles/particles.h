@@ -102,9 +102,8 @@ int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
  * they are added: before that `rays`, `square` and what power_balance sets alone are right. */
 int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t particles,
                      const struct watch *watch);
-/* All that is asked for then has the counts of all: faces, leaves, or both. */
+/* All that is asked for then has the counts of all: faces, or leaves as well. */
 void tally_add_faces(struct tally *tally, struct ranks *ranks);
-void tally_add_leaves(struct tally *tally, struct ranks *ranks);
 void tally_add(struct tally *tally, struct ranks *ranks);
 
 /* W that one count of a replicate's stands for; of `element` and `back`, a REPLICATES-th of it. */

@@ -95,19 +95,14 @@ void tally_add_faces(struct tally *tally, struct ranks *ranks)
     ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->back, tally->faces);
 }
 
-void tally_add_leaves(struct tally *tally, struct ranks *ranks)
+void tally_add(struct tally *tally, struct ranks *ranks)
 {
+    tally_add_faces(tally, ranks);
     if (!tally->parted_leaves)
         return;
     tally->parted_leaves = 0;
     ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->element,
                      (size_t)tally->elements * tally->bands);
-}
-
-void tally_add(struct tally *tally, struct ranks *ranks)
-{
-    tally_add_faces(tally, ranks);
-    tally_add_leaves(tally, ranks);
 }
 
 /* Each count is told by one rank: of a face by who has it, of a cluster, where none are, by the
