@@ -97,16 +97,13 @@ const char *dag_search_path(const struct search *search, const struct node *node
     return end == NULL ? path : dag_format(&dag->arena, "%s -> %s", path, end);
 }
 
-const struct node *dag_search_turn(const struct search *search, const struct node *node, int phase,
-                                   int *answer)
+const struct node *dag_search_turn(const struct search *search, const struct node *node)
 {
-    int state = node->order * search->phases + phase;
+    int state = node->order * search->phases + 1;
     while (state >= 0 && state % search->phases == 1) {
         int before = search->from[state];
-        if (before >= 0 && before % search->phases == 0) {
-            *answer = search->answer[state];
+        if (before >= 0 && before % search->phases == 0)
             return dag_node_at(search->dag, search->oracle, before / search->phases);
-        }
         state = before;
     }
     return NULL;

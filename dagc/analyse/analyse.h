@@ -38,9 +38,8 @@ int dag_search_reached(const struct search *search, const struct node *node, int
 const char *dag_search_path(const struct search *search, const struct node *node, int phase,
                             int answer, const char *end);
 
-/* The first node of the path whose phase is 1 after it, and its answer there; NULL: none. */
-const struct node *dag_search_turn(const struct search *search, const struct node *node, int phase,
-                                   int *answer);
+/* The first node after which the path to the node in phase 1 is in that phase; NULL: none. */
+const struct node *dag_search_turn(const struct search *search, const struct node *node);
 
 /* ---- analyse.c: words and small facts */
 

@@ -305,10 +305,10 @@ static void note_witness(struct repeats *repeats, const struct node *node,
     struct dag *dag = repeats->dag;
     struct search *search = &repeats->search;
     struct asked context = {node, repeats->question};
-    int arc = repeats->arc[node->order], place = repeats->arc_place[node->order], answer = 0;
+    int arc = repeats->arc[node->order], place = repeats->arc_place[node->order];
     dag_search(search, repeats->oracle, 2, asked, &context);
     if (arc < 0) {
-        const struct node *first = dag_search_turn(search, node, 1, &answer);
+        const struct node *first = dag_search_turn(search, node);
         if (first != NULL)
             dag_note(dag, first->where, "asked first here: %s",
                      dag_search_path(search, node, 1, -1, NULL));
@@ -316,7 +316,7 @@ static void note_witness(struct repeats *repeats, const struct node *node,
     }
     const struct node *last = dag_node_at(dag, repeats->oracle, place);
     int phase = asks_it(&context, last) && dag_search_reached(search, last, 0) ? 0 : 1;
-    const struct node *first = phase == 0 ? last : dag_search_turn(search, last, 1, &answer);
+    const struct node *first = phase == 0 ? last : dag_search_turn(search, last);
     if (first == NULL)
         return;
     dag_note(dag, first->where, "asked first here: %s",

@@ -218,7 +218,7 @@ static void check_falling(struct search *search, int term, const unsigned char *
         const struct node *node = dag_node_at(dag, search->oracle, i);
         const struct tool *tool = &dag->tools[node->tool];
         struct wanted wanted = {term, sure[i]};
-        int explicit = 0, answer = 0;
+        int explicit = 0;
         for (int k = tool->writes.first; k < tool->writes.first + tool->writes.count; k++)
             explicit |= dag->needs[k].term == term && dag->needs[k].level_name != NULL;
         int level = dag_written_level(dag, tool, -1, term);
@@ -231,7 +231,7 @@ static void check_falling(struct search *search, int term, const unsigned char *
                       level_name(dag, term, sure[i])))
             continue;
         dag_search(search, search->oracle, 2, reaches, &wanted);
-        const struct node *better = dag_search_turn(search, node, 1, &answer);
+        const struct node *better = dag_search_turn(search, node);
         dag_note(dag, better->where, "%s", dag_search_path(search, node, 1, -1, NULL));
         dag_note(dag, dag_nowhere, "the better value stays: leave '%s' out", node->name);
     }

@@ -221,9 +221,8 @@ void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
 void dag_emit_availability(struct dag *dag, struct text *out); /* --dump=availability */
 void dag_emit_waves(struct dag *dag, struct text *out);        /* --dump=waves */
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
-/* terms: as above */
-void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms);
-/* likewise; tools, by tool: are its answers in it? NULL: all are */
+void dag_emit_catalog_h(const struct dag *dag, struct text *out);
+/* terms: as above; tools, by tool: are its answers in it? NULL: all are */
 void dag_emit_catalog_part(const struct dag *dag, struct text *out, const unsigned char *terms,
                            const unsigned char *tools);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);

@@ -60,7 +60,7 @@ static void emit(struct dag *dag, struct job *job)
         dag_emit_catalog_doc(dag, out);
         break;
     case EMIT_CATALOG_H:
-        dag_emit_catalog_h(dag, out, NULL);
+        dag_emit_catalog_h(dag, out);
         break;
     case EMIT_CATALOG_C:
         dag_emit_catalog_c(dag, out);

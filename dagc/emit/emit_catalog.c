@@ -142,9 +142,9 @@ static void print_terms(const struct dag *dag, struct text *out, const unsigned 
     dag_print(out, "};\n");
 }
 
-void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms)
+void dag_emit_catalog_h(const struct dag *dag, struct text *out)
 {
-    dag_emit_catalog_part(dag, out, terms, NULL);
+    dag_emit_catalog_part(dag, out, NULL, NULL);
 }
 
 void dag_emit_catalog_part(const struct dag *dag, struct text *out, const unsigned char *terms,

@@ -285,7 +285,7 @@ static void *compile_with_headers(struct dag *dag, const struct c_file *own, int
         count++;
     struct c_file *files =
         dag_alloc(&dag->arena, ((size_t)count + 1 + (size_t)own_count) * sizeof *files);
-    dag_emit_catalog_h(dag, &r->catalog, NULL);
+    dag_emit_catalog_h(dag, &r->catalog);
     if (r->catalog.failed)
         dag_out_of_memory(&dag->arena);
     for (int i = 0; i < count; i++)

@@ -320,7 +320,7 @@ int prove_build(struct proof *proof)
     print_compiled(dag, &texts[ORACLES], &options);
     print_releases(dag, &texts[RELEASES], proof->width);
     dag_emit_catalog_c(dag, &texts[TABLE]);
-    dag_emit_catalog_h(dag, &texts[CATALOG], NULL);
+    dag_emit_catalog_h(dag, &texts[CATALOG]);
     print_discussion(dag, &texts[DISCUSSION], proof->width);
     dag_print(&texts[ORACLE], "%s", embedded("oracle.h"));
     dag_print(&texts[TOOLS], "/* all are in discussion.h */\n");

@@ -57,7 +57,7 @@ FILE *__wrap_fopen(const char *path, const char *mode)
 static void emit_catalog(struct dag *dag)
 {
     struct text out = {0};
-    dag_emit_catalog_h(dag, &out, NULL);
+    dag_emit_catalog_h(dag, &out);
     dag_emit_catalog_c(dag, &out);
     dag_emit_catalog_doc(dag, &out);
     for (int i = 0; i < dag->tool_count; i++)
