@@ -11,7 +11,7 @@
 
 int run_between(const char *const words[], FILE *from, FILE *to)
 {
-    if (fflush(from) != 0 || fseek(from, 0, SEEK_SET) != 0)
+    if (fflush(from) != 0 || ferror(from) || fseek(from, 0, SEEK_SET) != 0)
         return -1;
     const pid_t parent = getpid(), child = fork();
     if (child == 0) {
