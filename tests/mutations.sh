@@ -46,6 +46,7 @@ shades seen from the edge tell | runtime/engine/sight_missed.c | s/> EDGE_ON \* 
 the ray in a joint speaks for all | runtime/engine/sight_between.c | s/line < 3; line/line < 1; line/ | runtime/check_sheets
 paths are looked at once | runtime/engine/path_mending.c | s/(again /(1 / | runtime/check_path_mending
 replicates of paths share their points | runtime/particles/face_paths.c | s/REPLICATES + r, shift/REPLICATES, shift/ | runtime/check_paths
+what a path takes where light is reflected often | runtime/engine/path_mending.c | s/count > 0 ? 2 . (double)/count > 0 ? 0 * (double)/ | runtime/check_path_mending
 a look that is a part of what there may be | runtime/engine/path_mending.c | s/fmin(cost . PATHS_LOOK, most . PART)/fmin(cost, most) \/ PATHS_LOOK/ | runtime/check_path_mending
 a look at any price | runtime/engine/path_mending.c | s/fmin(cost . PATHS_LOOK, most . PART)/(cost \/ PATHS_LOOK)/ | runtime/check_path_mending
 paths are held against particles that saw nothing | runtime/engine/path_mending.c | s/fmax(of_particles, tally_power_of_one(particles) . by_paths)/fmax(of_particles, 0 * by_paths)/ | runtime/check_path_mending

@@ -25,8 +25,8 @@
 #include "engine/reflected_light.h"
 #include "kernel/constants.h"
 
-/* of a path, about, before any is traced; and times the paths there are, so many at the most before
- * it is asked again how many are wanted */
+/* of a path, about, before any is traced, where light is hardly reflected; and times the paths
+ * there are, so many at the most before it is asked again how many are wanted */
 enum { RAYS_OF_PATH = 4, GROWTH = 4 };
 /* of all the rays there may be, one part in so many is for a first look at the most. Chosen: paths
  * have as many left as they have looked by; of two-sided blades of grass, cut where they cross,
@@ -42,6 +42,15 @@ static int agree(const struct solve *s, const struct tally *particles, const str
                  off = by_particles - by_paths;
     of_particles = fmax(of_particles, tally_power_of_one(particles) * by_paths);
     return by_paths > 0 && off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);
+}
+
+/* Rays of a path before any is traced: two at each step, one onward and one to the light, and as
+ * many steps as particles take, if these are not few because they leave the scene at once. 1.7 to
+ * 1.8 times as many in rooms that reflect .3 to .95. */
+static double rays_of_path(const struct tally *particles)
+{
+    const double count = (double)particles->particles * REPLICATES;
+    return fmax(RAYS_OF_PATH, count > 0 ? 2 * (double)particles->rays / count : 0);
 }
 
 /* The paths of a first look. */
@@ -63,7 +72,7 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
         return -1;
     const double cost = alone * (double)tally->rays;
     const double look = paths_of_look(t);
-    if (!(fmin(cost / PATHS_LOOK, most / PART) > RAYS_OF_PATH * look))
+    if (!(fmin(cost / PATHS_LOOK, most / PART) > rays_of_path(tally) * look))
         return 0;
     if (path_tally_open(y, t, path_mending_stream(0)) < 0)
         return -1;

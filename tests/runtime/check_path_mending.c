@@ -6,6 +6,7 @@
 #include <check.h>
 #include <stdio.h>
 #include "engine/measured_error.h"
+#include "engine/mended_error.h"
 #include "engine/path_mending.h"
 #include "engine/reflected_light.h"
 #include "engine/solve_tracer.h"
@@ -192,6 +193,41 @@ START_TEST(test_room)
     ck_assert_int_eq(measure_and_mend(&s, &goal, &alone, &cause), 0);
     ck_assert_int_eq(s.by_paths, 0);
     measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* The same walls in tiles, whiter: paths take tens of rays each, and a look no more than its share
+ * of what particles are to take all the same. */
+START_TEST(test_white_room)
+{
+    enum { TILES = 10 };
+    struct mending_goal wanted = goal;
+    struct scene scene;
+    struct solve s;
+    struct tally particles;
+    struct path_tally y = {.tally = {0}};
+    double times, alone;
+    made_open(&scene);
+    made_material(&scene, 0.97, 0);
+    made_material(&scene, 0.97, 100);
+    for (int i = 0; i < 6 * TILES * TILES; i++)
+        made_tile(&scene, i == 0, 0, i % 6, i / 6, TILES, 1);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
+    struct tracer tracer = solve_tracer(&s);
+    ck_assert_int_eq(tracer_open(&tracer), 0);
+    ck_assert_int_eq(tally_open(&particles, &tracer, 1, 0), 0);
+    ck_assert_int_eq(tally_trace(&particles, &tracer, 400, NULL), 0);
+    wanted.most = 1 << 30;
+    ck_assert_int_eq(mended_error_times(&s, &particles, &wanted, &times, &alone), 0);
+    ck_assert_int_eq(path_mending_trace(&y, &s, &tracer, &particles, &wanted, NULL), 0);
+    const double cost = alone * (double)particles.rays;
+    printf("a white room: a look of %.2g rays, particles take %.2g\n", (double)y.tally.rays, cost);
+    ck_assert_double_le((double)y.tally.rays, 1.2 * cost / PATHS_LOOK);
+    path_tally_close(&y);
+    tally_close(&particles);
+    tracer_close(&tracer);
     solve_close(&s);
     made_close(&scene);
 }
@@ -424,6 +460,7 @@ int main(void)
     tcase_add_test(c, test_left);
     tcase_add_test(c, test_second_look);
     tcase_add_test(c, test_room);
+    tcase_add_test(c, test_white_room);
     tcase_add_test(c, test_other_light);
     tcase_add_test(c, test_few_particles);
     tcase_add_loop_test(c, test_few_rays, 0, 2);
