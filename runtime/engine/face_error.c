@@ -403,7 +403,7 @@ static struct RadMeasure expected_noise(const struct counted *c)
     }
     polygon_rows_sum(&c->rows, &mean, 1);
     polygon_rows_sum(&c->rows, &variance, 1);
-    double off = NORMAL_QUANTILE * sqrt(variance);
+    double off = NORMAL_T * sqrt(variance);
     return (struct RadMeasure){mean / c->reflected, fmax(0, mean - off) / c->reflected,
                                (mean + off) / c->reflected};
 }

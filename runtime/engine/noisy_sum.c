@@ -132,8 +132,7 @@ void noisy_sum_fit(struct noisy_sum *n, const double squares[NOISY_CLASSES])
             fit(n->bin[k], 1, &errors);
             continue;
         }
-        const double off = NORMAL_QUANTILE * sqrt(spread),
-                     less = fit_shape(n->bin[k], squares[k] + off),
+        const double off = NORMAL_T * sqrt(spread), less = fit_shape(n->bin[k], squares[k] + off),
                      more = fit_shape(n->bin[k], squares[k] - off),
                      at = fit_shape(n->bin[k], squares[k]); /* the last: bins keep its errors */
         n->shape_low += (at - less) * (at - less);

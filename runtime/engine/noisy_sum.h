@@ -6,8 +6,6 @@
 
 enum { NOISY_CLASSES = 24, NOISY_BINS = 24 };
 
-#define NORMAL_QUANTILE 1.959963984540054 /* 97.5 % of a normal distribution */
-
 /* Polygons and bands alike in number of particles and in x = |e^| / s: sums of s, s^2 and s x. */
 struct noisy_bin {
     double s, square, x;

@@ -204,8 +204,6 @@ static double rays_pay(const struct measurement *m, const struct stage *stage)
 
 /* ---- the mean square */
 
-#define NORMAL_95 1.959963984540054 /* deviations of a normal distribution that 95 % are within */
-
 static double both_reflect(const struct measurement *m, const struct point *p)
 {
     double sum = 0;
@@ -230,9 +228,9 @@ static void interval(const struct stage *stage, const double *z, double common, 
     }
     double all = sum + common, se = sqrt(all),
            freedom = square > 0 ? fmax(3 * all * all / square, 2) : INFINITY,
-           reach = NORMAL_95 * (1 + (NORMAL_95 * NORMAL_95 + 1) / (4 * freedom)),
+           reach = NORMAL_T * (1 + (NORMAL_T * NORMAL_T + 1) / (4 * freedom)),
            skewness = all > 0 ? fmin(fmax(cube / (all * se), 0), 1) : 0,
-           shift = skewness * (2 * NORMAL_95 * NORMAL_95 + 1) / 6;
+           shift = skewness * (2 * NORMAL_T * NORMAL_T + 1) / 6;
     *below = reach * se; /* not less: skewness is known by a few terms alone */
     *above = (reach + shift) * se;
 }

@@ -33,7 +33,8 @@
 #include "particles/watch.h"
 
 enum { REPLICATES = 16 };
-/* 97.5 % of Student's t with REPLICATES - 1 degrees of freedom. */
+/* 97.5 % of a normal distribution, and of Student's t with REPLICATES - 1 degrees of freedom. */
+#define NORMAL_T 1.959963984540054
 #define REPLICATES_T 2.131449545559323
 _Static_assert(REPLICATES == 16, "REPLICATES_T is that of 15 degrees of freedom");
 #define FACE_ELSEWHERE UINT32_MAX
