@@ -251,6 +251,7 @@ dents are solid | runtime/hierarchy/bodies.c | s/high <= s->h->flat \&\&/1 \&\&/
 rows stay off | runtime/kernel/constants.h | s/\(EXCHANGE_OFF\) *3.0$/\1 1e9/ | runtime/check_again
 legs are missed | runtime/kernel/constants.h | s/\(SIGHT_MISSED_MANY\) *5$/\1 0/ | runtime/check_again
 slabs between rows | runtime/visibility/environment.h | s/{64, 16, 1}/{16, 64, 0}/ | runtime/check_losses
+ways in a sector of a ring | runtime/visibility/environment.c | s/TURN = 2.6[0-9]*/TURN = 1/ | runtime/check_losses
 again and no wiser | runtime/engine/exchange_again.c | s/scratch, 1, /scratch, 0, / | runtime/check_again
 what lids cover is forgotten | runtime/engine/exchange.c | s/way->covered = covered;/(void)0;/ | runtime/check_standing
 floors are of columns | runtime/hierarchy/bodies.c | s/return high > h->flat;/return 0 * high > 1;/ | runtime/check_standing

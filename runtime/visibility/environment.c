@@ -13,12 +13,23 @@
 /* 1 / g and 1 / g^2, g^3 = g + 1; and the golden ratio's */
 static const double STEP[3] = {0.75487766624669276, 0.56984029099805327, 0.61803398874989485};
 
+/* The square root of 2, which no sum of those makes; golden angles in a turn. */
+static const double STEP_AROUND = 1.41421356237309505, TURN = 2.61803398874989485;
+
 /* Where in its cell point i stands, and where in their rings its rays go: in the middle of the
  * outermost of 16 none is nearer to the surface than 10 degrees. */
 static double within(const struct environment_grid *grid, int i, int k)
 {
     const double x = 0.5 + i * STEP[k];
     return grid->anywhere ? x - floor(x) : 0.5;
+}
+
+/* By how many golden angles the rays of point i are turned. By one at the most, 62 % of each ring
+ * are asked from nowhere: rays of many rings fill these in, and few leave out whole ways. */
+static double turn_of(const struct environment_grid *grid, int i)
+{
+    const double x = i * STEP_AROUND;
+    return grid->anywhere ? TURN * (x - floor(x)) : i / (double)(grid->side * grid->side);
 }
 
 struct environment environment_of(const struct rays *rays, const struct element *surface,
@@ -36,7 +47,7 @@ struct environment environment_of(const struct rays *rays, const struct element 
         for (int k = 0; k < 3; k++)
             p[k] += offset * surface->normal[k];
         for (int m = 0; m < grid.directions; m++) {
-            hemisphere_direction_in(d, &above, m, grid.directions, i / (double)points,
+            hemisphere_direction_in(d, &above, m, grid.directions, turn_of(&grid, i),
                                     within(&grid, i, 2));
             met[rays_first(rays, p, d, NULL, NULL)]++;
         }

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 #include "radiosity.h"
+#include "kernel/lambert.h"
 #include "suite.h"
 
 static const double OPPOSITE = 0.1998248957, BESIDE = 0.2000437761;
@@ -283,6 +284,40 @@ START_TEST(test_pillar)
 }
 END_TEST
 
+/* A patch in the middle of a wide room sees the sky through a chink of one wall, whichever that is,
+ * four degrees above its plane at the most: a thousandth of its row is known to go there. */
+START_TEST(test_chink)
+{
+    /* what a point in its middle sees, by Lambert's formula */
+    const double away = sqrt(6 * 6 + .4 * .4),
+                 chink = (atan(1) - 6 / away * atan(6 / away)) / LAMBERT_PI;
+    struct shape s;
+    for (uint32_t wall = 2; wall < 6; wall++) {
+        put_cube(&s);
+        for (int i = 0; i < 8; i++) {
+            for (int k = 0; k < 3; k++)
+                s.position[i][k] *= k < 2 ? 12 : 4;
+            memcpy(s.position[8 + i], s.position[i], sizeof s.position[i]);
+            s.position[8 + i][2] = i < 4 ? 1.4 : 1; /* where the wall begins again, and ends */
+            s.position[16 + i][0] = i % 4 == 1 || i % 4 == 2 ? 6.05 : 5.95;
+            s.position[16 + i][1] = i % 4 >= 2 ? 6.05 : 5.95;
+            s.position[16 + i][2] = 1;
+        }
+        for (int i = 0; i < 4; i++) {
+            const uint32_t corner = cube[wall][i];
+            s.corner[6][i] = corner < 4 ? corner : 8 + corner;
+            s.corner[wall][i] = corner < 4 ? 8 + corner : corner;
+            s.corner[7][i] = 16 + (uint32_t)i;
+        }
+        s.count = 8;
+        compute(&s, RAD_CLOSURE_NONE);
+        ck_assert_double_eq_tol(s.sum[7], 1 - chink, 3e-4);
+        ck_assert_double_eq_tol(s.sum[7] + s.loss[7].sky, 1, 1e-12);
+        close_shape(&s);
+    }
+}
+END_TEST
+
 /* A thin bent slab, which is no convex solid, pushed through the floor covers a four hundredth of
  * it, along rows of points that a grid would have. */
 START_TEST(test_slab)
@@ -341,6 +376,7 @@ int main(void)
     TCase *rows = tcase_create("rows");
     tcase_add_test(rows, test_closed);
     tcase_add_test(rows, test_pillar);
+    tcase_add_test(rows, test_chink);
     tcase_add_test(rows, test_slab);
     tcase_add_test(rows, test_box);
     tcase_add_test(rows, test_sky);
