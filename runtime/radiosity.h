@@ -435,7 +435,7 @@ enum RadBasis {
 
 /* Where refinement ends with RAD_ERROR_LIMIT: an oracle need not end, and what it has left by then
  * is no answer. The message says what was reached and, of an oracle with a graph, which node
- * decides most of the last subdivisions. 0: the default, which no oracle meets that ends (20
+ * decides most of the last subdivisions. 0: the default, which no oracle meets that ends (16
  * splits; 2 million parts of faces more than twice the links and stops; what half of the memory
  * holds; 1e11 discussions, 1e7 rounds). Of several ranks `pairs` is the limit of all together, the
  * others of each. A solution that was refused can only be released. */
@@ -869,8 +869,8 @@ RAD_API int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlac
  * a hundredth of the area that too few particles meet is told by paths from them, too, and where
  * these do not know it either by particles that are split where light is dim: by at most as many
  * rays besides, and by what is left of 1.5 million in all; smaller polygons by paths, as far as
- * some of these are left (engine/dim_faces.c). Where paths from polygons tell them for less than a
- * quarter of the rays, they mend in place of particles, and measure (engine/path_mending.c).
+ * some of these are left (engine/dim_faces.c). Where paths from polygons tell them for less than
+ * half of the rays, they mend in place of particles, and measure (engine/path_mending.c).
  * *alone, which may be NULL: the error of the links alone, by the same particles or paths; its rays
  * are what mending took. NULL options: the defaults. Returns 0, or -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
@@ -952,6 +952,7 @@ struct RadCausesReport {
  * [engine/error_causes.c] */
 RAD_API int radFindCauses(RadSolution solution, const struct RadCausesOptions *options,
                           struct RadCausesReport *report);
+
 /* ---- light at points */
 
 /* A point of a face, and how many rays gather light there. */
@@ -1142,6 +1143,7 @@ RAD_API int radFindElement(RadSolution solution, const char *name, uint32_t *ele
 /* The face that is nearest to a point (m), of two-sided ones the front; of faces at the same
  * distance the first. Returns 0, or -1. */
 RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t *element);
+
 /* ---- exchange areas */
 
 /* Long work, put down and gone on with another day. What goes on from a state ends with the same

@@ -407,9 +407,9 @@ const struct command_row command_rows[COMMANDS] = {
          "radiosity solve room.obj -o room.glb --image room.png"},
     [COMMAND_COMPARE] =
         {"compare", "SCENE", "the releases of an oracle, side by side",
-         "Solve a scene by all releases of an oracle at once: compiled graph, interpreted\n"
-         "graph, and written by hand where there is one. Compare every decision and link\n"
-         "bit by bit, then time them. The exit status is 1 when they differ.\n",
+         "Solve a scene by all releases of an oracle at once: the graph compiled, compiled\n"
+         "for pairs in waves, interpreted, and written by hand where it is. Compare every\n"
+         "decision and link bit by bit, then time them. Exit status 1: they differ.\n",
          "radiosity compare room.obj --oracle bf --set epsilon=0.02"},
     [COMMAND_VIEWFACTORS] =
         {"viewfactors", "SCENE", "the matrix of view factors between faces",
@@ -625,7 +625,7 @@ const struct option_row option_rows[] = {
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
     {"iterations", "N", MATRICES | FORM_FACTORS, "100000",
-     "sweeps of a pass at the most; solve ends with 3 if they do not do", "a whole number from 1",
+     "sweeps of a pass; where they are too few the exit status is 3", "a whole number from 1",
      WHOLE(iterations, 1, INT_MAX), .rare = 1},
     {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell, lu or petsc",
      WORD(read_solver, solver_words), .rare = 1},
