@@ -322,6 +322,30 @@ while read -r line; do
 done <examples/all
 rm -rf examples
 
+# ---- numbers that documents tell of are those of the headers
+# told NAME VALUE HEADER WORDS FILE...: the header defines NAME as VALUE, and each file says so by these words.
+told() {
+    count=$((count + 1))
+    name=$1 value=$2 header=$top/$3 words=$4
+    shift 4
+    grep -qxF "#define $name $value" "$header" || failed "$name is no longer $value, as these say: $*"
+    for file; do
+        tr '\n*' '  ' <"$top/$file" | tr -s ' ' | grep -qF -- "$words" || failed "$file does not say: $words"
+    done
+}
+api=runtime/radiosity.h constants=runtime/kernel/constants.h page=solver/man/radiosity.1
+told RAD_CORRECT_PLACES 0.065 $api "6.5 %, root mean square" README.md $page
+told RAD_CORRECT_NOISE 0.0065 $api ".65 % of the light per face" README.md
+told RAD_CORRECT_LEFT 0.008 $api "at most .8 %" README.md
+told RAD_CORRECT_POWER 0.0039 $api "at most .39 %" README.md
+told RAD_CORRECT_LEAST "(1u << 17)" $api "131,072" README.md
+told RAD_CORRECT_OF_ONE 6400u $api "6,400 for each face" README.md
+told RAD_MEASURE_SURFACES 250000u $api "250,000 at least" README.md
+told PATHS_CHEAPER 2.0 $constants "less than half of the rays" README.md $page $api
+told LIMIT_DEPTH 16 $constants "(16 splits" $api
+told SIGHT_FEW_POLYGONS 24 $constants "24 polygons" README.md $page $api
+told SIGHT_FLOOR_MANY 4.0 $constants "four over the root of the number of faces" README.md $page $api
+
 # ---- the picture of the error takes what that of the light takes, and both come from one run
 count=$((count + 1))
 "$radiosity" solve "$scene" -q --image-error e.png --mesh --view 0.5,0.5,0.5:1,0.5,0.5 --size 60x40 >out 2>err &&
