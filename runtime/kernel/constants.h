@@ -204,9 +204,8 @@
  * Chosen: such pieces may well be folded */
 #define SHELL_FEW 0.25
 
-/* faces. The default tree of fewer is of halves, of more by the surface-area heuristic: below
- * this no shipped graph links clusters, and the tree decides only in which order pairs are
- * found; chosen */
+/* faces. The default tree of fewer is of halves, in the file's order where slices of the scene are
+ * empty, of more by the surface-area heuristic; chosen. Graphs link clusters of either */
 #define CLUSTERS_FACES 1000
 /* of a cluster's area: a mean normal no longer than that, times area, points nowhere; rounding
  * of a sum */
