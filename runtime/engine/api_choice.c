@@ -11,7 +11,7 @@
  *
  * Links of error e, point by point, and L rays are worth these only where particles from as many
  * would be farther off: e^2 < s^2 / L. Sweeps are a part of L: an empty white sphere takes no rays,
- * and 200 sweeps. So links come coarse first, with thresholds times COARSE, and few particles
+ * but 50 sweeps. So links come coarse first, with thresholds times COARSE, and few particles
  * measure e and s; of e^2 the most counts that they do not speak against, for by chance it may come
  * out below 0, which no L would be too much for. Finer links, of L' rays and error e', spare s^2 (1
  * / e'^2 - 1 / e^2) rays. Were it rays that make the error, e^2 would fall with 1 / L; where
