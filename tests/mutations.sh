@@ -28,7 +28,7 @@ groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->re
 leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
 walls that stand in their own way | runtime/visibility/outer_walls.c | s/if (low < w->behind)/if (low > w->behind)/ | runtime/check_free_space
 shafts beside a flat cluster | runtime/visibility/candidates.c | s/low >= apart - shaft->touch/low >= -1e9 * shaft->touch/ | runtime/check_flat_clusters
-ends that lie flat on a flat cluster | runtime/visibility/candidates.c | s/if (nearest < shaft->margin + apart/if (0 * nearest > 0/ | runtime/check_flat_clusters
+ends that lie flat on a flat cluster | runtime/visibility/candidates.c | s/if (end_low < near/if (0 * near > 0/ | runtime/check_flat_clusters
 planes that lean | runtime/hierarchy/flat_clusters.c | s/fmax(fabs(over + high), fabs(over + low))/fabs(over)/ | runtime/check_flat_clusters
 what lies flat on a wall | runtime/visibility/outer_walls.c | s/return low < w->near \&\&/return 0 * low < 0 \&\&/ | runtime/check_free_space
 ears forget the corner before | runtime/hierarchy/polygon.c | s/sides_of(r, \&t, last, from);/;/ | runtime/check_triangles

@@ -424,10 +424,9 @@ static void count_in(struct looking *l, int at)
 /* A root: a piece with these corners. all: 1: what stands before it is what has been found. */
 static void start(struct looking *l, const double (*v)[3], int n, int all)
 {
-    const int count = l->ends.count > SIGHT_LIST ? MANY : l->ends.count;
     struct sight_node *node = &l->scratch->nodes[l->nodes];
     sight_piece_make(&node->piece, l->ends.from, v, n);
-    measure(l, l->nodes, all, l->ends.list, count);
+    measure(l, l->nodes, all, l->ends.list, l->ends.count);
     l->clear += node->clear;
     l->nodes++;
 }

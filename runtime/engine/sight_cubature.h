@@ -30,7 +30,7 @@ struct sight_ends {
     const struct element *from, *to;
     double clear;         /* what they exchange with nothing between (m2) */
     const uint32_t *list; /* [count], ascending: faces among which are all that stand between */
-    int count;            /* above SIGHT_LIST: they are not known, and the list is not read */
+    int count;            /* SIGHT_LIST + 1: they are not known, and the list is not read */
     int found;            /* 1: sight_between_find has left in scratch->between those that do */
     int believes;         /* 1: in rules that tell enough */
     uint32_t on;          /* the element that `from` is, or is part of */

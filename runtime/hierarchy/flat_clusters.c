@@ -17,8 +17,8 @@
 
 struct search {
     struct hierarchy *h;
-    double box[2][3], extent, most; /* m */
-    double *off; /* [built]: of planes below an element from its own, at the most (m) */
+    double extent; /* of the scene (m) */
+    double *off;   /* [built]: of planes below an element from its own, at the most (m) */
 };
 
 /* How far from each other two planes are anywhere in the scene (m), whichever way they look. */
@@ -29,7 +29,7 @@ static double apart(const struct search *s, const struct element *a, const struc
     double turn[3], high, low;
     for (int k = 0; k < 3; k++)
         turn[k] = a->normal[k] - same * b->normal[k];
-    box_reach((const double(*)[3])s->box, b->vertex[0], turn, &high, &low);
+    box_reach((const double(*)[3])s->h->elements[0].vertex, b->vertex[0], turn, &high, &low);
     return fmax(fabs(over + high), fabs(over + low));
 }
 
@@ -43,7 +43,7 @@ static void find_face(const struct search *s, uint32_t index)
     double high = 0, low = 0;
     element_reach(e, e, &high, &low);
     const double off = fmax(high, -low) + ROUNDINGS * s->extent * s->extent * e->radius / e->area;
-    if (off <= s->most) {
+    if (off <= FLAT_APART * s->extent) {
         s->h->plane[index] = index;
         s->off[index] = off;
     }
@@ -56,12 +56,13 @@ static void find_cluster(const void *search, uint32_t index)
     const struct hierarchy *h = s->h;
     const struct element *e = &h->elements[index];
     const uint32_t plane = e->children ? h->plane[e->child] : 0;
+    const double most = FLAT_APART * s->extent;
     double off = 0;
-    for (uint32_t c = e->child; c < e->child + e->children && plane && off <= s->most; c++)
+    for (uint32_t c = e->child; c < e->child + e->children && plane && off <= most; c++)
         off = fmax(off, h->plane[c]
                             ? s->off[c] + apart(s, &h->elements[plane], &h->elements[h->plane[c]])
                             : INFINITY);
-    if (plane && off <= s->most) {
+    if (plane && off <= most) {
         h->plane[index] = plane;
         s->off[index] = off;
     }
@@ -76,12 +77,8 @@ int flat_clusters_find(struct hierarchy *h)
         free(s.off);
         return -1;
     }
-    for (int k = 0; k < 3; k++) {
-        s.box[0][k] = h->low[k];
-        s.box[1][k] = h->high[k];
+    for (int k = 0; k < 3; k++)
         s.extent = fmax(s.extent, h->high[k] - h->low[k]);
-    }
-    s.most = FLAT_APART * s.extent;
     for (uint32_t i = 0; i < h->face_count; i++)
         find_face(&s, h->face_element[i]);
     children_first_clusters(h, find_cluster, &s);

@@ -68,7 +68,7 @@ struct hierarchy {
      * shaft (visibility/outer_walls.h). NULL: nobody knows */
     unsigned char *outer;
     /* [built]: the element whose plane all faces of this one lie in; 0: there is none
-     * (flat_clusters.h) */
+     * (flat_clusters.h). NULL: nobody knows, as with groups */
     uint32_t *plane;
     double flat; /* with groups: how far from their planes their faces may reach (m) */
 };

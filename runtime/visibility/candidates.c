@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "visibility/candidates.h"
+#include "hierarchy/reach.h"
 #include "kernel/element_distance.h"
 #include "kernel/shaft.h"
 
@@ -29,6 +30,15 @@ static void box_of_group(const struct element *e, double flat, double low[3], do
     }
 }
 
+/* How far an end reaches in front of a plane, and behind: no less than *high and *low say already.
+ */
+static void end_reach(const struct shaft *shaft, int end, const double on[3],
+                      const double normal[3], double *high, double *low)
+{
+    polygon_reach((const double(*)[3])shaft->end[end], (uint32_t)shaft->points[end], on, normal,
+                  high, low);
+}
+
 /* Does a face lie wholly behind the surface of one end? Segments between the ends run in front of
  * both, so it stops none, though ends are moved off, and of surfaces that meet at an acute angle,
  * or are nearer to each other than that, moved behind each other. Of a bent surface the lowest
@@ -36,13 +46,11 @@ static void box_of_group(const struct element *e, double flat, double low[3], do
 static int lies_behind(const struct shaft *shaft, double offset, const struct element *e)
 {
     for (int end = 0; end < 2; end++) {
-        const double *n = shaft->facing[end];
-        double low = INFINITY, high = -INFINITY;
-        for (int i = 0; i < shaft->points[end]; i++)
-            low = fmin(low, height3(shaft->end[end][i], shaft->end[end][0], n));
-        for (int i = 0; i < e->vertices; i++)
-            high = fmax(high, height3(e->vertex[i], shaft->end[end][0], n));
-        if (high - low + offset <= shaft->touch)
+        const double *n = shaft->facing[end], *on = shaft->end[end][0];
+        double high = -INFINITY, low = INFINITY, own_high = high, own_low = low;
+        end_reach(shaft, end, on, n, &own_high, &own_low);
+        polygon_reach((const double(*)[3])e->vertex, e->vertices, on, n, &high, &low);
+        if (high - own_low + offset <= shaft->touch)
             return 1;
     }
     return 0;
@@ -60,11 +68,10 @@ static int on_one_side(const struct shaft *shaft, double offset, const struct el
         return 0;
     for (int end = 0; end < 2; end++) {
         const double moved = offset * dot3(e->normal, shaft->facing[end]);
-        for (int i = 0; i < shaft->points[end]; i++) {
-            double h = height3(shaft->end[end][i], v[0], e->normal) - moved;
-            low = fmin(low, h);
-            high = fmax(high, h);
-        }
+        double end_high = -INFINITY, end_low = INFINITY;
+        end_reach(shaft, end, v[0], e->normal, &end_high, &end_low);
+        low = fmin(low, end_low - moved);
+        high = fmax(high, end_high - moved);
     }
     return (low >= -strip && high > SHAFT_AWAY * strip)
            || (high <= strip && low < -SHAFT_AWAY * strip);
@@ -98,19 +105,16 @@ int candidates_meets(const struct hierarchy *h, const struct shaft *shaft, doubl
 static int runs_beside(const struct walk *w, const struct element *plane)
 {
     const struct shaft *shaft = w->shaft;
-    const double apart = SHAFT_SLACK * w->offset;
+    const double apart = SHAFT_SLACK * w->offset, near = shaft->margin + apart;
     double low = INFINITY, high = -INFINITY;
     for (int end = 0; end < 2; end++) {
-        double nearest = INFINITY, across[3];
-        for (int i = 0; i < shaft->points[end]; i++) {
-            const double h = height3(shaft->end[end][i], plane->vertex[0], plane->normal);
-            low = h < low ? h : low;
-            high = h > high ? h : high;
-            nearest = fabs(h) < nearest ? fabs(h) : nearest;
-        }
+        double end_high = -INFINITY, end_low = INFINITY, across[3];
+        end_reach(shaft, end, plane->vertex[0], plane->normal, &end_high, &end_low);
         cross3(across, plane->normal, shaft->facing[end]);
-        if (nearest < shaft->margin + apart && dot3(across, across) < 2 * SHAFT_PARALLEL)
+        if (end_low < near && end_high > -near && dot3(across, across) < 2 * SHAFT_PARALLEL)
             return 0;
+        low = fmin(low, end_low);
+        high = fmax(high, end_high);
     }
     return low >= apart - shaft->touch || high <= shaft->touch - apart;
 }

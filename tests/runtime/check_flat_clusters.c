@@ -81,12 +81,13 @@ START_TEST(test_planes)
 }
 END_TEST
 
-static void find(const struct world *w, const uint32_t pair[2], uint32_t list[MOST + 1], int *count)
+/* Returns how many there are; -1: the two do not face each other. */
+static int find(const struct world *w, const uint32_t pair[2], uint32_t list[MOST])
 {
     struct shaft shaft;
-    *count = -1;
-    if (shaft_open(&shaft, &w->h.elements[pair[0]], &w->h.elements[pair[1]], w->host))
-        *count = candidates_find(&w->h, &shaft, w->host->ray_offset, MOST, list);
+    return shaft_open(&shaft, &w->h.elements[pair[0]], &w->h.elements[pair[1]], w->host)
+               ? candidates_find(&w->h, &shaft, w->host->ray_offset, MOST, list)
+               : -1;
 }
 
 /* What stands in a shaft is what stands in it when no plane is known. lowest: all shafts are
@@ -95,14 +96,13 @@ static void compare(struct world *w, int lowest, uint64_t *seed, const char *nam
 {
     int listed = 0, open = 0;
     for (int i = 0; i < 3000; i++) {
-        uint32_t pair[2], a[MOST + 1], b[MOST + 1], *plane = w->h.plane;
-        int n, m;
+        uint32_t pair[2], a[MOST], b[MOST], *plane = w->h.plane;
         random_pair(w, seed, 3, pair);
         if (lowest)
             pair[0] = w->h.face_element[w->h.face_count - 1];
-        find(w, pair, a, &n);
+        const int n = find(w, pair, a);
         w->h.plane = NULL;
-        find(w, pair, b, &m);
+        const int m = find(w, pair, b);
         w->h.plane = plane;
         ck_assert_int_eq(n, m);
         for (int k = 0; k < n && n <= MOST; k++)
