@@ -11,11 +11,11 @@
 #include "radiosity.h"
 #include "suite.h"
 
-enum { BOXES = 7, LAYERS = 4, MOST = BOXES * BOXES * LAYERS + 2 };
+enum { BOXES = 7, LAYERS = 4, MOST = 6 * (BOXES * BOXES * LAYERS + 2) };
 
 struct room {
-    double at[MOST * 8][3];
-    uint32_t corner[MOST * 6][4], material[MOST * 6], corners, faces;
+    double at[4 * MOST][3];
+    uint32_t corner[MOST][4], material[MOST], corners, faces;
 };
 
 /* Six sides, seen from outside or, with inside, from there. */
@@ -29,6 +29,22 @@ static void put_box(struct room *r, const double p[3], const double size[3], int
     for (int i = 0; i < 8; i++, r->corners++)
         for (int k = 0; k < 3; k++)
             r->at[r->corners][k] = p[k] + (i >> k & 1 ? size[k] : 0);
+}
+
+static RadScene commit(RadDevice device, const struct room *r,
+                       const struct RadMaterial materials[2])
+{
+    const struct RadPolygons polygons = {.positions = r->at[0],
+                                         .position_count = r->corners,
+                                         .indices = r->corner[0],
+                                         .size = 4,
+                                         .materials = r->material,
+                                         .count = r->faces};
+    RadScene scene = radNewScene(device);
+    ck_assert_int_eq(radSetSceneMaterials(scene, materials, 2), 0);
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &polygons), 0);
+    ck_assert_msg(radCommitScene(scene) == 0, "%s", radGetDeviceErrorMessage(device));
+    return scene;
 }
 
 static RadScene open_scene(RadDevice device, int boxes)
@@ -47,17 +63,7 @@ static RadScene open_scene(RadDevice device, int boxes)
         r.material[i] = 1;
     const struct RadMaterial materials[2] = {{{0.7, 0.7, 0.7}, {0, 0, 0}, 0},
                                              {{0, 0, 0}, {10, 10, 10}, 0}};
-    const struct RadPolygons polygons = {.positions = r.at[0],
-                                         .position_count = r.corners,
-                                         .indices = r.corner[0],
-                                         .size = 4,
-                                         .materials = r.material,
-                                         .count = r.faces};
-    RadScene scene = radNewScene(device);
-    ck_assert_int_eq(radSetSceneMaterials(scene, materials, 2), 0);
-    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &polygons), 0);
-    ck_assert_msg(radCommitScene(scene) == 0, "%s", radGetDeviceErrorMessage(device));
-    return scene;
+    return commit(device, &r, materials);
 }
 
 static RadOracle open_oracle(RadDevice device)
@@ -252,34 +258,24 @@ END_TEST
 /* A cube of 6 TILES^2 squares of one reflectance, which sees itself: no links take a ray. */
 static RadScene open_tiles(RadDevice device, double reflectance)
 {
-    enum { TILES = 10, ALL = 6 * TILES * TILES };
-    static double at[4 * ALL][3];
-    static uint32_t corner[ALL][4], material[ALL];
-    for (uint32_t i = 0; i < ALL; i++) {
-        const uint32_t side = i / (TILES * TILES), axis = side / 2, far = side % 2;
-        material[i] = i == 0;
-        for (uint32_t j = 0; j < 4; j++) {
+    enum { TILES = 10 };
+    static struct room r;
+    memset(&r, 0, sizeof r);
+    for (; r.faces < 6 * TILES * TILES; r.faces++) {
+        const uint32_t i = r.faces, side = i / (TILES * TILES), axis = side / 2, far = side % 2;
+        r.material[i] = i == 0;
+        for (uint32_t j = 0; j < 4; j++, r.corners++) {
             const uint32_t right = (j == 1 || j == 2), up = j > 1;
-            corner[i][far ? 3 - j : j] = 4 * i + j;
-            at[4 * i + j][axis] = far;
-            at[4 * i + j][(axis + 1) % 3] = (double)(i % TILES + right) / TILES;
-            at[4 * i + j][(axis + 2) % 3] = (double)(i / TILES % TILES + up) / TILES;
+            r.corner[i][far ? 3 - j : j] = r.corners;
+            r.at[r.corners][axis] = far;
+            r.at[r.corners][(axis + 1) % 3] = (double)(i % TILES + right) / TILES;
+            r.at[r.corners][(axis + 2) % 3] = (double)(i / TILES % TILES + up) / TILES;
         }
     }
-    const double r = reflectance;
-    const struct RadMaterial materials[2] = {{{r, r, r}, {0, 0, 0}, 0},
-                                             {{r, r, r}, {10, 10, 10}, 0}};
-    const struct RadPolygons polygons = {.positions = at[0],
-                                         .position_count = 4 * ALL,
-                                         .indices = corner[0],
-                                         .size = 4,
-                                         .materials = material,
-                                         .count = ALL};
-    RadScene scene = radNewScene(device);
-    ck_assert_int_eq(radSetSceneMaterials(scene, materials, 2), 0);
-    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &polygons), 0);
-    ck_assert_msg(radCommitScene(scene) == 0, "%s", radGetDeviceErrorMessage(device));
-    return scene;
+    const double rho = reflectance;
+    const struct RadMaterial materials[2] = {{{rho, rho, rho}, {0, 0, 0}, 0},
+                                             {{rho, rho, rho}, {10, 10, 10}, 0}};
+    return commit(device, &r, materials);
 }
 
 /* Finer links in a white room would be swept over as often as coarse ones, and that is what they
@@ -289,17 +285,14 @@ START_TEST(test_sweeps_cost)
     const double reflectances[2] = {0.3, 0.98};
     for (int i = 0; i < 2; i++) {
         RadDevice device = radNewDevice(NULL);
-        RadScene scene = open_tiles(device, reflectances[i]);
-        RadOracle oracle = open_oracle(device);
+        const struct asked a = {device, open_tiles(device, reflectances[i]), open_oracle(device)};
         struct RadChoice choice;
-        RadSolution solution = radSolveScene(scene, oracle, &linear, NULL, &choice);
+        RadSolution solution = radSolveScene(a.scene, a.oracle, &linear, NULL, &choice);
         ck_assert_msg(solution != NULL, "%s", radGetDeviceErrorMessage(device));
         ck_assert_int_eq(choice.no_links, 0);
         ck_assert_double_eq(choice.scale, i == 0 ? 1 : 16);
         radReleaseSolution(solution);
-        radReleaseOracle(oracle);
-        radReleaseScene(scene);
-        radReleaseDevice(device);
+        release(&a);
     }
 }
 END_TEST

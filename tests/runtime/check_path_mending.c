@@ -198,42 +198,7 @@ START_TEST(test_room)
 }
 END_TEST
 
-/* The same walls in tiles, whiter: paths take tens of rays each, and a look no more than its share
- * of what particles are to take all the same. */
-START_TEST(test_white_room)
-{
-    enum { TILES = 10 };
-    struct mending_goal wanted = goal;
-    struct scene scene;
-    struct solve s;
-    struct tally particles;
-    struct path_tally y = {.tally = {0}};
-    double times, alone;
-    made_open(&scene);
-    made_material(&scene, 0.97, 0);
-    made_material(&scene, 0.97, 100);
-    for (int i = 0; i < 6 * TILES * TILES; i++)
-        made_tile(&scene, i == 0, 0, i % 6, i / 6, TILES, 1);
-    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
-    struct tracer tracer = solve_tracer(&s);
-    ck_assert_int_eq(tracer_open(&tracer), 0);
-    ck_assert_int_eq(tally_open(&particles, &tracer, 1, 0), 0);
-    ck_assert_int_eq(tally_trace(&particles, &tracer, 400, NULL), 0);
-    wanted.most = 1 << 30;
-    ck_assert_int_eq(mended_error_times(&s, &particles, &wanted, &times, &alone), 0);
-    ck_assert_int_eq(path_mending_trace(&y, &s, &tracer, &particles, &wanted, NULL), 0);
-    const double cost = alone * (double)particles.rays;
-    printf("a white room: a look of %.2g rays, particles take %.2g\n", (double)y.tally.rays, cost);
-    ck_assert_double_le((double)y.tally.rays, 1.2 * cost / PATHS_LOOK);
-    path_tally_close(&y);
-    tally_close(&particles);
-    tracer_close(&tracer);
-    solve_close(&s);
-    made_close(&scene);
-}
-END_TEST
-
-/* The box under a sky, and a look at it by so many particles of each replicate. */
+/* A scene, and a look at it by so many particles of each replicate. */
 struct looked {
     struct scene scene;
     struct solve solve;
@@ -241,14 +206,20 @@ struct looked {
     struct tally particles;
 };
 
+/* The scene is made. */
 static void look(struct looked *l, uint64_t particles)
 {
-    box_under_sky(&l->scene, 100);
     solve_with(&l->solve, &l->scene, "power", RELEASE_FLAT, NULL, quick(1));
     l->tracer = solve_tracer(&l->solve);
     ck_assert_int_eq(tracer_open(&l->tracer), 0);
     ck_assert_int_eq(tally_open(&l->particles, &l->tracer, 1, 0), 0);
     ck_assert_int_eq(tally_trace(&l->particles, &l->tracer, particles, NULL), 0);
+}
+
+static void look_under_sky(struct looked *l, uint64_t particles)
+{
+    box_under_sky(&l->scene, 100);
+    look(l, particles);
 }
 
 static void looked_close(struct looked *l)
@@ -258,6 +229,32 @@ static void looked_close(struct looked *l)
     solve_close(&l->solve);
     made_close(&l->scene);
 }
+
+/* The walls of a room in tiles, whiter: paths take tens of rays each, and a look no more than its
+ * share of what particles are to take all the same. */
+START_TEST(test_white_room)
+{
+    enum { TILES = 10 };
+    struct mending_goal wanted = goal;
+    struct looked l;
+    struct path_tally y = {.tally = {0}};
+    double times, alone;
+    made_open(&l.scene);
+    made_material(&l.scene, 0.97, 0);
+    made_material(&l.scene, 0.97, 100);
+    for (int i = 0; i < 6 * TILES * TILES; i++)
+        made_tile(&l.scene, i == 0, 0, i % 6, i / 6, TILES, 1);
+    look(&l, 400);
+    wanted.most = 1 << 30;
+    ck_assert_int_eq(mended_error_times(&l.solve, &l.particles, &wanted, &times, &alone), 0);
+    ck_assert_int_eq(path_mending_trace(&y, &l.solve, &l.tracer, &l.particles, &wanted, NULL), 0);
+    const double cost = alone * (double)l.particles.rays;
+    printf("a white room: a look of %.2g rays, particles take %.2g\n", (double)y.tally.rays, cost);
+    ck_assert_double_le((double)y.tally.rays, 1.2 * cost / PATHS_LOOK);
+    path_tally_close(&y);
+    looked_close(&l);
+}
+END_TEST
 
 /* Do paths mend, if particles have seen `times` as much light as they have? */
 static int paths_mend(struct looked *l, double times)
@@ -276,7 +273,7 @@ static int paths_mend(struct looked *l, double times)
 START_TEST(test_other_light)
 {
     struct looked l;
-    look(&l, 20000);
+    look_under_sky(&l, 20000);
     ck_assert_int_eq(paths_mend(&l, 1), 1);
     ck_assert_int_eq(paths_mend(&l, 10), 0);
     looked_close(&l);
@@ -289,7 +286,7 @@ START_TEST(test_few_particles)
 {
     struct looked l;
     double variance;
-    look(&l, 1000);
+    look_under_sky(&l, 1000);
     const double light = reflected_light(&l.solve.problem, &l.particles, &variance);
     printf("%.2g +- %.2g of 3.6 W by few particles\n", light, sqrt(variance));
     ck_assert_int_eq(paths_mend(&l, 0.2 * 0.6 * 6 / light), 1);
@@ -305,7 +302,7 @@ START_TEST(test_few_rays)
     struct mending_goal wanted = goal;
     struct looked l;
     struct path_tally y = {.tally = {0}};
-    look(&l, 20000);
+    look_under_sky(&l, 20000);
     wanted.most = most[_i];
     ck_assert_int_eq(path_mending_trace(&y, &l.solve, &l.tracer, &l.particles, &wanted, NULL),
                      _i == 0);
