@@ -25,7 +25,8 @@ struct rim {
     struct sight_eye eye;
     struct casting cast;
     double box[SIGHT_BODIES][4]; /* around shadows, APART wider: low and high of each coordinate */
-    double open;                 /* what is counted where edges end, less where they begin */
+    int beside, other[SIGHT_BODIES]; /* shadows whose box meets that of the one at work */
+    double open;                     /* what is counted where edges end, less where they begin */
 };
 
 static void find_boxes(struct rim *rim)
@@ -134,19 +135,33 @@ static void add_own(struct rim *rim, const struct outline_cell *cell, int i)
     add_rest(rim, p, q, &parts, 0);
 }
 
-/* What is seen beside an edge from p to q of shadow `own`. */
-static void add_shadow(struct rim *rim, int own, const double p[2], const double q[2])
+static int boxes_meet(const double a[4], const double b[4])
+{
+    return (a[0] <= b[2]) & (b[0] <= a[2]) & (a[1] <= b[3]) & (b[1] <= a[3]);
+}
+
+/* Only shadows whose box meets its own hide edges of shadow `own`. */
+static void find_others(struct rim *rim, int own)
+{
+    rim->beside = 0;
+    for (int s = 0; s < rim->cast.count; s++) {
+        rim->other[rim->beside] = s;
+        rim->beside += s != own && boxes_meet(rim->box[s], rim->box[own]);
+    }
+}
+
+/* What is seen beside an edge from p to q of the shadow at work. */
+static void add_edge(struct rim *rim, const double p[2], const double q[2])
 {
     const struct casting *c = &rim->cast;
     struct hidden_parts parts;
-    const double low_u = p[0] < q[0] ? p[0] : q[0], high_u = p[0] < q[0] ? q[0] : p[0],
-                 low_v = p[1] < q[1] ? p[1] : q[1], high_v = p[1] < q[1] ? q[1] : p[1];
+    const double edge[4] = {p[0] < q[0] ? p[0] : q[0], p[1] < q[1] ? p[1] : q[1],
+                            p[0] < q[0] ? q[0] : p[0], p[1] < q[1] ? q[1] : p[1]};
     parts.count = 0; /* no more of it is read */
-    for (int s = 0; s < c->count; s++) {
-        const double *box = rim->box[s];
+    for (int i = 0; i < rim->beside; i++) {
+        const int s = rim->other[i];
         double low = 0, high = 1;
-        if ((s == own) | (high_u < box[0]) | (low_u > box[2]) | (high_v < box[1])
-            | (low_v > box[3]))
+        if (!boxes_meet(edge, rim->box[s]))
             continue;
         for (int k = c->first[s]; k < c->first[s + 1] && low < high; k++) {
             const struct body_line *other = &c->cut[k];
@@ -156,6 +171,15 @@ static void add_shadow(struct rim *rim, int own, const double p[2], const double
         add_hidden(&parts, low, high);
     }
     add_rest(rim, p, q, &parts, 1);
+}
+
+static void add_shadow(struct rim *rim, int own)
+{
+    const struct body_shadow *shadow = &rim->cast.shadow[own];
+    find_others(rim, own);
+    for (int i = 0; i < shadow->n; i++)
+        if (shadow->by[i] >= POLYGON_MAX)
+            add_edge(rim, shadow->p[i], shadow->p[i + 1 < shadow->n ? i + 1 : 0]);
 }
 
 /* How far a point is to be above the plane, in steps off its surface: lower down that step decides
@@ -194,12 +218,8 @@ double sight_rims_past(const struct sight *sight, const double x[3], const doubl
     find_boxes(&rim);
     for (int i = 0; i < cell->n; i++)
         add_own(&rim, cell, i);
-    for (int s = 0; s < c->count; s++) {
-        const struct body_shadow *shadow = &c->shadow[s];
-        for (int i = 0; i < shadow->n; i++)
-            if (shadow->by[i] >= POLYGON_MAX)
-                add_shadow(&rim, s, shadow->p[i], shadow->p[i + 1 < shadow->n ? i + 1 : 0]);
-    }
+    for (int s = 0; s < c->count; s++)
+        add_shadow(&rim, s);
     const double seen = sight_eye_factor(&rim.eye, whole);
     if (!(fabs(rim.open) <= OPEN))
         return -1;
