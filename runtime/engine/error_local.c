@@ -20,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/error_account.h"
+#include "engine/push_pull.h"
 #include "engine/residual.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
@@ -28,31 +29,17 @@
 
 /* ---- what the cap and the solver left */
 
-static void gather(const struct error_account *a, uint32_t e, double h[3])
-{
-    const struct solve *s = a->solve;
-    const struct refinement *r = &s->refinement;
-    uint32_t bands = s->problem.bands;
-    for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++) {
-        const struct link *l = &r->links[i];
-        double weight = (double)l->form_factor * (l->visibility * (1.0 / LINK_VISIBLE));
-        for (uint32_t k = 0; k < bands; k++)
-            h[k] += weight * s->state.radiosity[(size_t)l->emitter * bands + k];
-    }
-    separable_links_gather(&s->operator.separable, (int)bands, e, h);
-}
-
 /* Leave at the leaves below e what they gather before the cap, in `left`, and after it, in `cap`,
- * both over their whole area. spare[band]: as in transport.c. */
+ * both over their whole area. spare[band]: as in push_pull.c. */
 static void gather_below(const struct error_account *a, uint32_t e, const double above[3],
                          double spare[3])
 {
     const struct solve *s = a->solve;
     const struct light_operator *op = &s->operator;
     const struct element *x = &s->hierarchy.elements[e];
-    double own[3] = {0, 0, 0}, all[3] = {0, 0, 0};
+    double own[3], all[3] = {0, 0, 0};
     uint32_t bands = s->problem.bands;
-    gather(a, e, own);
+    element_gather(op, s->state.radiosity, bands, e, own);
     for (uint32_t k = 0; k < bands; k++)
         all[k] = above[k] + own[k];
     for (uint32_t j = x->child; j < x->child + x->children; j++) {

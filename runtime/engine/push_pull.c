@@ -14,27 +14,27 @@
 #include <math.h>
 #include "engine/push_pull.h"
 
-/* What element e gathers over its own links, into irradiance[e]. */
-static void gather(const struct light_operator *op, const struct transport *x, uint32_t e)
+void element_gather(const struct light_operator *op, const double *value, uint32_t bands,
+                    uint32_t e, double h[3])
 {
     const struct refinement *r = op->refinement;
-    double h[3] = {0, 0, 0};
-    uint32_t b = x->bands;
+    h[0] = h[1] = h[2] = 0;
     for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++) {
         double weight = operator_weight(op, i);
-        const double *from = &x->value[(size_t)r->links[i].emitter * b];
-        for (uint32_t k = 0; k < b; k++)
+        const double *from = &value[(size_t)r->links[i].emitter * bands];
+        for (uint32_t k = 0; k < bands; k++)
             h[k] += weight * from[k];
     }
-    separable_links_gather(&op->separable, (int)b, e, h);
-    for (uint32_t k = 0; k < b; k++)
-        x->irradiance[(size_t)e * b + k] = h[k];
+    separable_links_gather(&op->separable, (int)bands, e, h);
 }
 
 void face_gather(const struct light_operator *op, const struct transport *x, uint32_t e)
 {
     const struct element *at = &op->hierarchy->elements[e];
-    gather(op, x, e);
+    double h[3];
+    element_gather(op, x->value, x->bands, e, h);
+    for (uint32_t k = 0; k < x->bands; k++)
+        x->irradiance[(size_t)e * x->bands + k] = h[k];
     for (int c = 0; c < at->children; c++)
         face_gather(op, x, at->child + (uint32_t)c);
 }

@@ -12,6 +12,11 @@ struct change {
     double power[3];        /* A x of the face as it is then, over what is uncovered */
 };
 
+/* Into h[band], what element e gathers of value[element * bands + band] over its own links; links
+ * of groups bring what separable_links_send was last called with. */
+void element_gather(const struct light_operator *op, const double *value, uint32_t bands,
+                    uint32_t e, double h[3]);
+
 /* Into irradiance[], what the surface e and each of its parts gather over links of their own. Where
  * clusters are linked, separable_links_send comes first. */
 void face_gather(const struct light_operator *op, const struct transport *x, uint32_t e);

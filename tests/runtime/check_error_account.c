@@ -757,6 +757,30 @@ START_TEST(test_slopes)
 }
 END_TEST
 
+/* What iteration leaves is told by the links as they are solved over, by either projection: of an
+ * error e in the solution (1 - K) e, at most twice that, as K takes no more than it is given. */
+START_TEST(test_solver_share)
+{
+    char *settings[] = {"relative=0.3", "min_share=2e-3", NULL};
+    struct scene scene;
+    struct solve s;
+    struct RadAccountReport report;
+    struct solve_options how = quick(1);
+    how.projection = (enum RadProjection)_i;
+    furnished(&scene, 1);
+    solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, how);
+    make_account(&s, NULL, &report);
+    double power = 0;
+    for (uint32_t i = 0; i < s.hierarchy.face_count; i++) {
+        uint32_t e = s.hierarchy.face_element[i];
+        power += s.hierarchy.elements[e].area * s.state.radiosity[e];
+    }
+    ck_assert_double_le(report.estimate[RAD_CATEGORY_SOLVER].l1, 2 * how.tolerance * power);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("error_account");
@@ -774,6 +798,7 @@ int main(void)
     tcase_add_test(parts, test_open);
     tcase_add_test(parts, test_library);
     tcase_add_test(parts, test_slopes);
+    tcase_add_loop_test(parts, test_solver_share, 0, 2);
     suite_add_tcase(suite, parts);
     return suite_failures(suite) != 0;
 }
