@@ -52,8 +52,7 @@ struct source {
 struct import {
     const char *path; /* as written; NULL: the standard catalog */
     struct where where;
-    int source;          /* in sources; -1: not read */
-    unsigned char first; /* it is for this one that the source was read */
+    int source; /* in sources; -1: not read */
 };
 
 /* Exponents of the base units m, kg, s, A, K, mol, cd; all zero: a plain number. */

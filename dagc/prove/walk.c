@@ -11,7 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "analyse/analyse.h"
 #include "prove/proving.h"
 
 const struct node *prove_node_at(const struct proof *proof, int place)

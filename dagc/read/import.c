@@ -102,7 +102,6 @@ int dag_next_import(struct dag *dag)
                                                strlen(dagc_standard_catalog));
         }
         if (fresh && import->source >= 0) {
-            import->first = 1;
             dag->sources[import->source].importer = import->where;
             return import->source;
         }

@@ -270,7 +270,7 @@ static void unknown_item(struct parser *parser)
 static int parse_import(struct parser *parser)
 {
     struct dag *dag = parser->dag;
-    struct import import = {NULL, parser->token.where, -1, 0};
+    struct import import = {NULL, parser->token.where, -1};
     if (!dag_take_word(parser, "standard")
         && !dag_expect_string(parser, "a file's name, a string, or 'standard'", &import.path))
         return 0;

@@ -20,7 +20,6 @@
 #include <string.h>
 #include "engine/error_account.h"
 #include "engine/light_bounds.h"
-#include "kernel/constants.h"
 
 /* Per element, of one band; and sums over bands. */
 struct bound_work {

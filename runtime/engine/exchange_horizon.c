@@ -17,7 +17,6 @@
 #include <string.h>
 #include "engine/exchange_horizon.h"
 #include "engine/sight_shadows.h"
-#include "kernel/shaft.h"
 #include "visibility/hidden.h"
 
 /* The most lines through a rectangle, and corners of what they leave of a face. */

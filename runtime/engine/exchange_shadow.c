@@ -14,7 +14,6 @@
 #include <string.h>
 #include "engine/exchange_shadow.h"
 #include "kernel/lambert.h"
-#include "kernel/outline_visibility.h"
 
 /* A face of the group that shadows fall on, in its plane's coordinates. */
 struct shadow_cell {

@@ -22,7 +22,6 @@
 #include "engine/mended_error.h"
 #include "engine/polygon_rows.h"
 #include "engine/reflected_light.h"
-#include "kernel/constants.h"
 #include "kernel/lambert.h"
 
 /* Over this rank's faces, or all where it has the counts of all: what they reflect, and of small

@@ -118,7 +118,6 @@ struct refinement {
     uint64_t common;             /* rays of discussions that other ranks count, too, and tell of */
     uint64_t decided[8];         /* how often each decision was taken */
     uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
-    int failed;                  /* out of memory: the links are incomplete */
 };
 
 enum { REFINEMENT_ROUND = 1 << 17 }; /* pairs of a round, at the most */

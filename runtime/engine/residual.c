@@ -21,7 +21,6 @@
 #include <math.h>
 #include <string.h>
 #include "engine/residual.h"
-#include "kernel/constants.h"
 #include "kernel/point_factor.h"
 #include "kernel/surface_point.h"
 

@@ -201,7 +201,6 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h,
     size_t n, faces = h->face_count;
     memset(c, 0, sizeof *c);
     c->hierarchy = h;
-    c->bands = bands;
     c->threads = threads;
     c->centres = centres;
     c->here = here;

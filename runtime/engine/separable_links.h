@@ -38,7 +38,7 @@ struct separable_link {
 
 struct separable_links {
     const struct hierarchy *hierarchy;
-    int bands, threads;           /* bands: the most that `arrives` and `received` have room for */
+    int threads;
     int width;                    /* of vectors (kernel/lanes.h) */
     int centres;                  /* 1: a surface takes light at its centre (collocation) */
     struct face_range here;       /* in the tree's order, the faces that light is received for */
@@ -60,7 +60,7 @@ struct separable_links {
 /* Take the links that have a cluster at one end from a sorted refinement. Pivots weigh faces by the
  * radiosities that the oracles see. `centres`: what a surface gathers is taken at its centre, not
  * the mean over it. `here`: the faces, in the tree's order, of which anybody asks what they
- * receive. Returns 0, or -1 when out of memory. */
+ * receive; `bands`: the most that are sent. Returns 0, or -1 when out of memory. */
 int separable_links_open(struct separable_links *c, const struct hierarchy *h,
                          const struct refinement *r, int bands, int threads, int centres,
                          struct face_range here);

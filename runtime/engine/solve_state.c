@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/collocation.h"
 #include "engine/state_identity.h"
 #include "engine/state_stream.h"
 #include "kernel/constants.h"

@@ -293,7 +293,6 @@ static int measure_all(struct measurement *m, const struct solve *s,
     }
     out->l2 = mean_square(m, &stage[1], z);
     free(z);
-    out->points = stage[1].count;
     out->rays = m->rays;
     return 0;
 }

@@ -12,7 +12,7 @@
 struct surface_error {
     /* sqrt(integral e^2 dA / integral (B - E)^2 dA), bands summed under both integrals */
     struct RadMeasure l2;
-    uint64_t rays, points;
+    uint64_t rays;
 };
 
 /* The error of a light, point by point, slopes and all, by about so many `rays`; 20,000 give a

@@ -27,8 +27,7 @@ int cut_frame_of(struct cut_frame *c, const struct face *faces, uint32_t index, 
     struct face f = faces[index];
     if (polygon_degenerate(f.vertex, f.vertices, precision))
         return 0;
-    *c = (struct cut_frame){
-        .face = &faces[index], .index = index, .two_sided = two_sided, .precision = precision};
+    *c = (struct cut_frame){.face = &faces[index], .index = index, .two_sided = two_sided};
     c->size = polygon_size(f.vertex, f.vertices);
     polygon_normal(f.vertex, f.vertices, c->normal);
     double largest = 0, longest = 0;

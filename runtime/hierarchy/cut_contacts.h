@@ -12,7 +12,6 @@ struct cut_frame {
     int two_sided;                           /* its far side is the face behind it */
     double size;                             /* its longest diagonal (m) */
     double touch;                            /* nearer than that is the same place (m) */
-    double precision;                        /* of its coordinates, relative (scene.h) */
     double centre[3], normal[3], u[3], v[3]; /* u along the longest edge */
     double low[3], high[3];
 };

@@ -15,7 +15,6 @@
 #include <math.h>
 #include "hierarchy/reach.h"
 #include "kernel/constants.h"
-#include "kernel/surface.h"
 #include "visibility/free_space.h"
 
 enum { WALLS = 16 };

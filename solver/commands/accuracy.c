@@ -15,7 +15,6 @@
 #include "commands/accuracy.h"
 #include "util/clock.h"
 #include "util/device.h"
-#include "util/report.h"
 
 /* rays of mending, and as many of measuring: of a first look; and at the least */
 enum { FIRST_LOOK = 1 << 14, FIRST_RAYS = 1 << 16 };

@@ -13,7 +13,6 @@
 #include "commands/explain_steps.h"
 #include "commands/watch_pair.h"
 #include "geometry.h"
-#include "output/explanation.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "util/device.h"

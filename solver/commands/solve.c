@@ -121,7 +121,7 @@ static int solve_links(struct solved *s, struct coarse_first *coarse, const stru
         return status < 0 ? report_device(scene->device, o->trace), 1 : status;
     }
     if (solved_finish(s, how) < 0) {
-        if (report_unless(scene->device, o->scene, RAD_ERROR_CANCELLED) > 0)
+        if (report_unless_cancelled(scene->device, o->scene) > 0)
             (void)trace_file_close(trace, &count); /* which says what stopped it */
         else
             trace_file_discard(trace);

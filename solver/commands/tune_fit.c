@@ -123,7 +123,7 @@ static int solve(struct tuner *t, const int *at, int scene, double limit, struct
     RadSolution solution = radNewSolution(s->scene.scene, t->oracle, &how);
     int status = 0;
     if (!solution || radSolve(solution) < 0)
-        status = report_unless(s->scene.device, s->scene.path, RAD_ERROR_CANCELLED);
+        status = report_unless_cancelled(s->scene.device, s->scene.path);
     t->limit = INFINITY;
     double error = 0;
     if (status == 0)

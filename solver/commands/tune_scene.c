@@ -68,7 +68,7 @@ int tune_scene_error(struct tune_scene *t, RadSolution solution, double target, 
     struct RadErrorReport e;
     if ((!t->reference && trace(t, solution, target) < 0)
         || radMeasureErrorBy(solution, t->reference, &e) < 0)
-        return report_unless(t->scene.device, t->scene.path, RAD_ERROR_CANCELLED);
+        return report_unless_cancelled(t->scene.device, t->scene.path);
     *error = e.l1_faces.value;
     return e.reflected > 0 ? 0
                            : report_error(t->scene.path, 0,

@@ -15,7 +15,6 @@
 #include "util/array.h"
 #include "util/atomic_file.h"
 #include "util/decisions.h"
-#include "util/device.h"
 #include "util/ends_with.h"
 #include "util/filter.h"
 #include "util/report.h"
@@ -26,7 +25,6 @@
 struct trace_file {
     struct atomic_file file;
     FILE *out;
-    const char *path;
     int json;
     RadSolution solution;
     RadOracle oracle;
@@ -259,8 +257,7 @@ int trace_file_open(struct trace_file **trace, const char *path, const char *whe
         report_error(path, 0, "out of memory for a trace");
         return 1;
     }
-    *t = (struct trace_file){.path = path,
-                             .json = ends_with(path, ".jsonl"),
+    *t = (struct trace_file){.json = ends_with(path, ".jsonl"),
                              .faces = radGetSceneFaces(scene),
                              .solution = solution,
                              .oracle = oracle};

@@ -5,7 +5,6 @@
 #include <string.h>
 #include "study/stability.h"
 #include "study/stability_known.h"
-#include "terms/form_factor.h"
 #include "terms/visibility.h"
 #include "tools/exact_visibility.h"
 

@@ -63,12 +63,12 @@ int report_device(RadDevice device, const char *where)
     return -1;
 }
 
-int report_unless(RadDevice device, const char *where, enum RadError expected)
+int report_unless_cancelled(RadDevice device, const char *where)
 {
     char *message = strdup(radGetDeviceErrorMessage(device)); /* asking for the code forgets it */
-    int met = radGetDeviceError(device) == expected;
-    if (!met)
+    int cancelled = radGetDeviceError(device) == RAD_ERROR_CANCELLED;
+    if (!cancelled)
         report_error(where, 0, "%s", message && *message ? message : "out of memory");
     free(message);
-    return met ? 1 : -1;
+    return cancelled ? 1 : -1;
 }

@@ -18,7 +18,7 @@ RadDevice open_device(int threads);
 /* Say what the device's last call could not do, as "where: error: sentence". Returns -1. */
 int report_device(RadDevice device, const char *where);
 
-/* The same, but not a word where it is the error `expected`. Returns 1 then, else -1. */
-int report_unless(RadDevice device, const char *where, enum RadError expected);
+/* The same, but not a word where it was cancelled. Returns 1 then, else -1. */
+int report_unless_cancelled(RadDevice device, const char *where);
 
 #endif

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "util/decimal.h"
-#include "util/device.h"
 #include "util/report.h"
 #include "util/text_file.h"
 

@@ -192,9 +192,11 @@ START_TEST(imports)
     ck_assert_ptr_nonnull(dag);
     ck_assert_int_eq(dag->import_count, 3);
     ck_assert_int_eq(dag->source_count, 3); /* the catalog, o.dag and, once, g.dag */
-    ck_assert_int_eq(dag->imports[0].first, 1);
-    ck_assert_int_eq(dag->imports[1].first, 0);
     ck_assert_int_eq(dag->imports[1].source, dag->imports[0].source);
+    const struct where first = dag->sources[dag->imports[0].source].importer;
+    ck_assert_int_eq(first.source, dag->imports[0].where.source);
+    ck_assert_int_eq(first.offset, dag->imports[0].where.offset);
+    ck_assert_int_ne(first.offset, dag->imports[1].where.offset);
     dag_free(dag);
     options.folder_count = 1;
     run("sed -i 's/import .lib.g.dag.;//' %s/o.dag%s%s", place, "", "");
