@@ -4,22 +4,18 @@
 #include <check.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "command.h"
 #include "discussion.h"
 #include "folder.h"
 #include "suite.h"
 #include "tools/lot.h"
 
+#define STUDY "$RADIOSITY study visibility examples/scenes/cornell.obj "
+
 static int run(const char *more)
 {
-    const char *program = getenv("RADIOSITY");
-    char command[1024];
-    snprintf(command, sizeof command, "%s study visibility examples/scenes/cornell.obj -q %s",
-             program ? program : "build/bin/radiosity", more);
-    return system(command);
+    return shell(STUDY "-q %s", more);
 }
 
 enum { TOOLS = 7, ROWS = 16 };
@@ -45,10 +41,8 @@ static int read_row(FILE *in, struct row *r)
 static void read_table(const char *more, int status, int thresholds, int tools,
                        struct row rows[ROWS][TOOLS])
 {
-    char command[768], head[512];
-    snprintf(command, sizeof command, "%s -o %s", more, in_folder("table.csv"));
-    int result = run(command);
-    ck_assert_int_eq(WEXITSTATUS(result), status);
+    char head[512];
+    ck_assert_int_eq(shell(STUDY "-q %s -o %s", more, in_folder("table.csv")), status);
     FILE *in = fopen(in_folder("table.csv"), "r");
     ck_assert_ptr_nonnull(in);
     ck_assert_ptr_nonnull(fgets(head, sizeof head, in));
@@ -126,8 +120,8 @@ START_TEST(test_visibility)
     ck_assert_double_gt(r[5].known, 50);
     ck_assert_double_lt(r[5].known, 100);
     ck_assert_double_le(r[6].percent, r[0].percent);
-    snprintf(path, sizeof path, "grep -q '16 rays' %s/chart.svg", folder);
-    ck_assert_msg(system(path) == 0, "no chart; it is drawn by gnuplot (gnuplot-nox)");
+    ck_assert_msg(folder_holds("chart.svg", "16 rays"),
+                  "no chart; it is drawn by gnuplot (gnuplot-nox)");
 }
 END_TEST
 
@@ -189,18 +183,14 @@ START_TEST(test_partial)
     read_table(more, 3, 1, 5, rows);
     ck_assert_int_gt(rows[0][0].tested, 0);
     ck_assert_int_eq(rows[0][0].complete, 0);
-    const char *program = getenv("RADIOSITY");
-    snprintf(more, sizeof more,
-             "timeout --foreground --preserve-status -s INT 1 %s study visibility "
-             "examples/scenes/cornell.obj %s "
-             "-o %s/stopped.csv > %s/stopped.txt",
-             program ? program : "build/bin/radiosity", slow, folder, folder);
-    int status = system(more);
-    ck_assert_int_eq(WEXITSTATUS(status), 130);
-    snprintf(more, sizeof more,
-             "grep -q '^partial: stopped' %s/stopped.txt && grep -q ',0$' %s/stopped.csv", folder,
-             folder);
-    ck_assert_int_eq(system(more), 0);
+    ck_assert_int_eq(shell("timeout --foreground --preserve-status -s INT 1 " STUDY
+                           "%s -o %s/stopped.csv > %s/stopped.txt",
+                           slow, folder, folder),
+                     130);
+    ck_assert_int_eq(shell("grep -q '^partial: stopped' %s/stopped.txt && "
+                           "grep -q ',0$' %s/stopped.csv",
+                           folder, folder),
+                     0);
 }
 END_TEST
 
@@ -211,21 +201,19 @@ START_TEST(test_choice)
 {
     static const char *const wrong[] = {"99%", "4%", "0.0001%"};
     double below[3][3];
-    const char *program = getenv("RADIOSITY");
     for (int i = 0; i < 3; i++) {
-        char command[512];
-        snprintf(command, sizeof command,
-                 "%s study visibility examples/scenes/cornell.obj --thresholds 20,100,1000 " COARSE
-                 "--wrong %s | sed -n 's/.*--oracle by_reliability/by_reliability/p'",
-                 program ? program : "build/bin/radiosity", wrong[i]);
-        FILE *out = popen(command, "r");
+        ck_assert_int_eq(shell(STUDY "--thresholds 20,100,1000 " COARSE "--wrong %s | sed -n "
+                                     "'s/.*--oracle by_reliability/by_reliability/p' > %s",
+                               wrong[i], in_folder("choice.txt")),
+                         0);
+        FILE *out = fopen(in_folder("choice.txt"), "r");
         ck_assert_ptr_nonnull(out);
         ck_assert_int_eq(fscanf(out,
                                 "by_reliability --set below_4=%lf --set below_16=%lf --set "
                                 "below_64=%lf",
                                 &below[i][0], &below[i][1], &below[i][2]),
                          3);
-        ck_assert_int_eq(pclose(out), 0);
+        fclose(out);
     }
     for (int k = 0; k < 3; k++) {
         ck_assert_double_eq_tol(below[0][k], 1000 * 4e-5, 1e-6);
@@ -241,17 +229,15 @@ END_TEST
 static long marked(const char *more, int mark)
 {
     long marks[8] = {0};
-    char command[512];
-    const char *program = getenv("RADIOSITY");
-    snprintf(
-        command, sizeof command,
-        "%s solve examples/scenes/cornell.obj --oracle by_reliability --no-correct --no-errors -q "
-        "--set min_share=1e-3 %s --json - | tr -d ' \n' | sed 's/.*\"marks\":\\[//'",
-        program ? program : "build/bin/radiosity", more);
-    FILE *out = popen(command, "r");
+    ck_assert_int_eq(shell("$RADIOSITY solve examples/scenes/cornell.obj --oracle by_reliability "
+                           "--no-correct --no-errors -q --set min_share=1e-3 %s --json - | "
+                           "tr -d ' \n' | sed 's/.*\"marks\":\\[//' > %s",
+                           more, in_folder("marks.txt")),
+                     0);
+    FILE *out = fopen(in_folder("marks.txt"), "r");
     ck_assert_ptr_nonnull(out);
     ck_assert_int_eq(fscanf(out, "%ld,%ld,%ld,%ld", &marks[0], &marks[1], &marks[2], &marks[3]), 4);
-    pclose(out);
+    fclose(out);
     return marks[mark];
 }
 
@@ -273,11 +259,11 @@ END_TEST
 /* What the graph cannot do is refused. */
 START_TEST(test_wrong)
 {
-    ck_assert_int_eq(WEXITSTATUS(run("--rays 5 2> /dev/null")), 2);
-    ck_assert_int_eq(WEXITSTATUS(run("--rays 16,4 2> /dev/null")), 2);
-    ck_assert_int_eq(WEXITSTATUS(run("--chart no.txt 2> /dev/null")), 2);
-    ck_assert_int_eq(WEXITSTATUS(run("-o no.txt 2> /dev/null")), 2);
-    ck_assert_int_eq(WEXITSTATUS(run("--only shared_edge 2> /dev/null")), 2);
+    ck_assert_int_eq(run("--rays 5 2> /dev/null"), 2);
+    ck_assert_int_eq(run("--rays 16,4 2> /dev/null"), 2);
+    ck_assert_int_eq(run("--chart no.txt 2> /dev/null"), 2);
+    ck_assert_int_eq(run("-o no.txt 2> /dev/null"), 2);
+    ck_assert_int_eq(run("--only shared_edge 2> /dev/null"), 2);
     ck_assert_int_ne(run("--set nothing=1 2> /dev/null"), 0);
 }
 END_TEST
