@@ -12,6 +12,7 @@
  * [Dense solution: Goral et al. 1984; LAPACK for LU]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/dense.h"
@@ -34,6 +35,17 @@ uint32_t dense_leaves(const struct hierarchy *h)
     for (uint32_t i = 0; i < h->count; i++)
         count += h->elements[i].vertices && !h->elements[i].children;
     return count;
+}
+
+int dense_too_many(uint32_t leaves, char *cause, size_t size)
+{
+    if (leaves <= DENSE_LEAVES)
+        return 0;
+    snprintf(cause, size,
+             "LU solves for at most %d leaves, and there are %u already; coarser oracle parameters "
+             "make fewer, and the other solvers take any number",
+             DENSE_LEAVES, (unsigned)leaves);
+    return 1;
 }
 
 /* Number the leaves of e. */

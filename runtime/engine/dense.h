@@ -11,6 +11,9 @@ enum { DENSE_LEAVES = 5000 };
 /* The surfaces that are not divided. */
 uint32_t dense_leaves(const struct hierarchy *h);
 
+/* Are there more leaves than a matrix is made for? Then `cause` says so. */
+int dense_too_many(uint32_t leaves, char *cause, size_t size);
+
 /* Set x->value to the solution, of at most DENSE_LEAVES leaves. Its irradiance is left to the sweep
  * that follows. Returns 0, or -1 when out of memory. Loads LAPACK, which whoever asks for LU has
  * tried. */

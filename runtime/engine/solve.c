@@ -12,93 +12,20 @@
  * [Hanrahan et al. 1991, sections 4 and 5]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include "engine/ambient.h"
 #include "engine/bends.h"
 #include "engine/collocation.h"
 #include "engine/dense.h"
-#include "engine/lights_reach.h"
 #include "engine/solve.h"
 #include "engine/trace.h"
 #include "engine/transport.h"
 #include "engine/variation.h"
 #include "kernel/constants.h"
-#include "kernel/hash.h"
-#include "util/array.h"
 #include "util/clock.h"
-#include "util/thread_pool.h"
-#include "visibility/enclosure.h"
 
 /* Where the solver lowers error tolerances or ranks links, a pass may be one step of many. */
 enum { PASSES = 32, PASSES_IN_STEPS = 200 };
-
-static double largest(const double *v, uint32_t n)
-{
-    double most = v[0];
-    for (uint32_t i = 1; i < n; i++)
-        most = fmax(most, v[i]);
-    return most;
-}
-
-int solve_make_room(struct solve *s)
-{
-    struct state *state = &s->state;
-    struct light_operator *op = &s->operator;
-    uint32_t count = s->hierarchy.count, b = s->problem.bands;
-    double **const by_band[] = {&state->radiosity, &state->irradiance};
-    double **const single[] = {&op->uncovered, &op->row_scale, &op->row_above, &op->row_share,
-                               &op->row};
-    for (size_t i = 0; i < sizeof by_band / sizeof *by_band; i++)
-        if (array_reserve_beside(by_band[i], count, s->capacity, b * sizeof **by_band[i]) < 0)
-            return -1;
-    for (size_t i = 0; i < sizeof single / sizeof *single; i++)
-        if (array_reserve_beside(single[i], count, s->capacity, sizeof **single[i]) < 0)
-            return -1;
-    if (array_reserve(&s->inputs.changed, count, &s->capacity, sizeof *s->inputs.changed) < 0)
-        return -1;
-    for (uint32_t i = s->started; i < count; i++) {
-        const struct element *e = &s->hierarchy.elements[i];
-        for (uint32_t k = 0; k < b; k++) {
-            double *B = &state->radiosity[(size_t)i * b + k];
-            *B = e->vertices && e->depth > 0 ? state->radiosity[(size_t)e->parent * b + k] : 0;
-            state->irradiance[(size_t)i * b + k] = 0;
-        }
-        op->uncovered[i] = 1;
-    }
-    s->started = count;
-    s->report.held = count > s->report.held ? count : s->report.held;
-    return 0;
-}
-
-/* The scene's, unless what is dark is told apart. */
-static const struct face *faces_of(const struct problem *p)
-{
-    const int all = p->options.unit || p->options.all_sides;
-    return all || !p->scene->lit ? p->scene->faces : p->scene->lit;
-}
-
-/* Returns 0, or -1 when out of memory. */
-static int read_materials(struct problem *p)
-{
-    const struct scene *scene = p->scene;
-    size_t values = (size_t)scene->face_count * p->bands;
-    p->exitance = malloc(values * sizeof *p->exitance);
-    p->reflectance = malloc(values * sizeof *p->reflectance);
-    p->whitest = malloc(scene->face_count * sizeof *p->whitest);
-    if (!p->exitance || !p->reflectance || !p->whitest)
-        return -1;
-    for (uint32_t i = 0; i < scene->face_count; i++) {
-        const struct RadMaterial *m = &scene->materials[scene->faces[i].material];
-        for (uint32_t k = 0; k < p->bands; k++) {
-            p->exitance[(size_t)i * p->bands + k] = p->options.unit ? 1 : m->exitance[k];
-            p->reflectance[(size_t)i * p->bands + k] = p->options.unit ? 0 : m->reflectance[k];
-        }
-        p->whitest[i] = largest(&p->reflectance[(size_t)i * p->bands], p->bands);
-    }
-    return 0;
-}
 
 /* Radiosity, as an equation over the links. */
 static struct transport light(struct solve *s, double tolerance)
@@ -109,78 +36,6 @@ static struct transport light(struct solve *s, double tolerance)
                               .source = s->problem.exitance,
                               .reflectance = s->problem.reflectance,
                               .tolerance = tolerance};
-}
-
-/* Are there more leaves than a dense matrix is made for? Then s->cause says so. */
-static int too_many(struct solve *s, uint32_t leaves)
-{
-    if (s->problem.options.solver != RAD_SOLVER_LU || leaves <= DENSE_LEAVES)
-        return 0;
-    snprintf(s->cause, sizeof s->cause,
-             "LU solves for at most %d leaves, and there are %u already; coarser oracle parameters "
-             "make fewer, and the other solvers take any number",
-             DENSE_LEAVES, (unsigned)leaves);
-    return 1;
-}
-
-int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options,
-               const char **cause)
-{
-    struct problem *p = &s->problem;
-    struct hierarchy *h = &s->hierarchy;
-    double *brightest = NULL, start = seconds();
-    memset(s, 0, sizeof *s);
-    *cause = "out of memory";
-    p->scene = scene;
-    p->options = *options;
-    if (too_many(s, scene->face_count)) {
-        *cause = s->cause;
-        return -1;
-    }
-    p->bands = options->unit ? 1 : scene->bands;
-    s->operator=(struct light_operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
-    if (ranks_any(options->ranks,
-                  hierarchy_build_by(h, faces_of(p), scene->face_count,
-                                     options->clusters ? (enum clustering)(options->clusters - 1)
-                                                       : CLUSTERING_DEFAULT,
-                                     options->threads)
-                      < 0))
-        goto fail;
-    s->report.seconds.clusters = seconds() - start;
-    if (shares_open(&s->operator.shares, options->ranks, h) < 0)
-        goto fail;
-    brightest = malloc(scene->face_count * sizeof *brightest);
-    if (ranks_any(options->ranks, !brightest || read_materials(p) < 0 || solve_make_room(s) < 0))
-        goto fail;
-    /* What emits nothing now or later may be left out of a row only while nobody asks what a row
-     * sums to. */
-    for (uint32_t i = 0; (options->unit || options->closure != CLOSURE_NONE) && i < h->count; i++)
-        h->elements[i].black = 0;
-    for (uint32_t i = 0; i < scene->face_count; i++) {
-        const double *exitance = &p->exitance[(size_t)i * p->bands];
-        brightest[i] = largest(exitance, p->bands);
-        h->elements[h->face_element[i]].reflectance = p->whitest[i];
-        memcpy(&s->state.radiosity[(size_t)h->face_element[i] * p->bands], exitance,
-               p->bands * sizeof *exitance);
-    }
-    struct transport x = light(s, 0);
-    transport_average(&s->operator, & x);
-    if (oracle_inputs_update(&s->inputs, &s->operator, s->state.radiosity, h) < 0)
-        goto fail;
-    p->rays = rays_open(h, brightest, p->whitest, options->threads, cause);
-    if (ranks_any(options->ranks, !p->rays))
-        goto fail;
-    oracle_inputs_guess(p, h);
-    p->reflects = lights_reach(p, h);
-    if (options->closure != CLOSURE_NONE)
-        p->closed = enclosure_decide(p->rays, h, brightest, options->threads, &p->closed_rays);
-    free(brightest);
-    s->report.seconds.build = seconds() - start;
-    return 0;
-fail:
-    free(brightest);
-    solve_close(s);
-    return -1;
 }
 
 /* ---- progress, which may cancel */
@@ -195,7 +50,8 @@ int solve_tell(struct solve *s, const char *phase)
 static int watch_refinement(void *context, const struct refinement *r)
 {
     struct solve *s = context;
-    if (s->problem.options.solver == RAD_SOLVER_LU && too_many(s, dense_leaves(r->hierarchy)))
+    if (s->problem.options.solver == RAD_SOLVER_LU
+        && dense_too_many(dense_leaves(r->hierarchy), s->cause, sizeof s->cause))
         return -1;
     return solve_tell(context, "refine");
 }
@@ -233,61 +89,6 @@ static int fail(const struct solve *s, const char *memory, const char **cause)
 }
 
 /* ---- passes */
-
-/* Links, added up by threads. */
-struct link_counts {
-    _Atomic uint64_t links, marked[LINK_MARKS], fingerprint;
-};
-
-struct link_counting {
-    const struct solve *s;
-    struct link_counts *all;
-};
-
-static void count_links(const void *counting, size_t from, size_t to)
-{
-    const struct link_counting *x = counting;
-    const struct solve *s = x->s;
-    struct pass_counts c = {0};
-    for (size_t i = from; i < to; i++) {
-        const struct link *l = &s->refinement.links[i];
-        if (!shares_counts(&s->operator.shares, l->receiver))
-            continue;
-        uint64_t bits = 0;
-        memcpy(&bits, &l->form_factor, sizeof l->form_factor);
-        bits |= (uint64_t)l->visibility << 32 | (uint64_t)l->levels << 48 | (uint64_t)l->mark << 56;
-        c.links++;
-        c.marked[l->mark]++;
-        c.fingerprint += hash64(s->hierarchy.elements[l->receiver].id
-                                + hash64(s->hierarchy.elements[l->emitter].id + hash64(bits)));
-    }
-    x->all->links += c.links;
-    x->all->fingerprint += c.fingerprint;
-    for (int i = 0; i < LINK_MARKS; i++)
-        x->all->marked[i] += c.marked[i];
-}
-
-/* What all ranks have come to. */
-static void sum_counts(struct solve *s)
-{
-    const struct refinement *r = &s->refinement;
-    struct ranks *ranks = s->problem.options.ranks;
-    struct pass_counts *c = &s->report.counts;
-    double rounds = (double)r->rounds;
-    *c = (struct pass_counts){.pairs = r->pairs,
-                              .rays = rays_count(s->problem.rays).rays - r->common};
-    memcpy(c->decided, r->decided, sizeof c->decided);
-    struct link_counts all = {0};
-    const struct link_counting counting = {s, &all};
-    thread_pool_run(s->problem.options.threads, r->link_count, 4096, count_links, &counting);
-    c->links = all.links;
-    c->fingerprint = all.fingerprint;
-    for (int i = 0; i < LINK_MARKS; i++)
-        c->marked[i] = all.marked[i];
-    ranks_add_counts(ranks, RANKS_VALUES, (uint64_t *)c, sizeof *c / sizeof(uint64_t));
-    ranks_most(ranks, RANKS_VALUES, &rounds, 1);
-    s->report.rounds = (uint64_t)rounds;
-}
 
 /* One packet of many is timed, and counts for all of them: where a thread was put aside in one,
  * that would be more than the whole. */
@@ -343,7 +144,7 @@ int solve_renew_operator(struct solve *s, struct row_report *rows)
 
 int solve_recount(struct solve *s)
 {
-    sum_counts(s);
+    solve_count_links(s);
     return ranks_any(s->problem.options.ranks, collocation_update(&s->operator) < 0) ? -1 : 0;
 }
 
@@ -452,7 +253,7 @@ static int64_t refine_again(struct solve *s)
         return -1;
     if (ranks_any(ranks, solve_make_room(s) < 0))
         return -1;
-    sum_counts(s);
+    solve_count_links(s);
     solve_measure_contact(s, first, 0);
     return (int64_t)all;
 }
@@ -578,39 +379,4 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
         more = solve_step(s, cause);
     }
     return more;
-}
-
-void solve_forget_mended(struct solve *s)
-{
-    free(s->mended.radiosity);
-    free(s->mended.irradiance);
-    free(s->mended_gradient);
-    s->mended_gradient = NULL;
-    s->mended = (struct state){0};
-}
-
-void solve_close(struct solve *s)
-{
-    solve_forget_mended(s);
-    refinement_close(&s->refinement);
-    separable_links_close(&s->operator.separable);
-    shares_close(&s->operator.shares);
-    rays_close(s->problem.rays);
-    hierarchy_free(&s->hierarchy);
-    importance_free(&s->importance);
-    error_control_free(&s->error);
-    bracket_free(&s->bracket);
-    ranking_free(&s->ranking);
-    linear_solution_free(&s->linear);
-    double *const lists[] = {s->state.radiosity,    s->state.irradiance,   s->operator.uncovered,
-                             s->operator.row_scale, s->operator.row_above, s->operator.row_share,
-                             s->operator.row,       s->problem.exitance,   s->problem.reflectance,
-                             s->problem.whitest};
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-        free(lists[i]);
-    free(s->inputs.changed);
-    quarters_close(&s->quarters);
-    free(s->stretch);
-    free(s->operator.collocated);
-    memset(s, 0, sizeof *s);
 }

@@ -109,6 +109,9 @@ int solve_begin(struct solve *s, const struct refiner *refiner, const char **cau
  * slopes have rows of their own. *rows is set where it has been made anew. Returns 0 or -1. */
 int solve_renew_operator(struct solve *s, struct row_report *rows);
 
+/* What refinement has come to on all ranks, into report.counts and report.rounds. */
+void solve_count_links(struct solve *s);
+
 /* What follows from links that are new: counts, and form factors by collocation. Returns 0 or -1.
  */
 int solve_recount(struct solve *s);
