@@ -125,7 +125,7 @@ defaults emitted 7 | dagc/emit/emit_c.c | /static void print_value/,/^}/s/dag_pr
 tables emitted 7 | dagc/emit/emit_c.c | /static void print_parameter_table/,/^}/s/dag_print_number(out, parameter->value)/dag_print_number(out, 7)/ | dagc/check_prove
 offsets of the first | dagc/emit/emit_c.c | s/is_integer(dag, parameter), oracle->name, parameter->name);/is_integer(dag, parameter), oracle->name, dag->parameters[oracle->parameters.first].name);/ | dagc/check_prove
 fingerprints of nothing | dagc/emit/emit_c.c | s/dag_fingerprint_text(oracle, fingerprint);/memset(fingerprint, '0', 16), fingerprint[16] = 0;/ | dagc/check_prove
-known too early | dagc/emit/emit_flat.c | s/level_name(dag, t, low));$/level_name(dag, t, t->levels.count > 0 ? t->levels.count : 1));/ | dagc/check_prove
+known too early | dagc/emit/flat_node.c | s/dag_flat_level(dag, t, low));$/dag_flat_level(dag, t, t->levels.count > 0 ? t->levels.count : 1));/ | dagc/check_prove
 counted and decided otherwise | runtime/oracle/counting.c | s/return (enum decision) ~p->next\[at\];/return (enum decision)(~p->next[at] == 1 ? 0 : ~p->next[at]);/ | runtime/check_releases
 followed and decided otherwise | runtime/oracle/follow.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | runtime/check_releases
 differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/    if (1)/; s/    if (panel.differences) {/    if (0) {/ | solver/check_compare

@@ -13,47 +13,6 @@
  * than linear time for a function.
  * SPDX-License-Identifier: MIT */
 #include "emit/flat.h"
-#include "emit/line_directives.h"
-
-/* For compilers and debuggers: what follows stands there in the source. */
-void dag_flat_directive(const struct flat *flat, struct where where)
-{
-    if (flat->directives)
-        dag_line_at(flat->dag, flat->out, where);
-}
-
-static int same_target(const struct target *a, const struct target *b)
-{
-    return a->kind == b->kind && a->index == b->index;
-}
-
-static const struct arc *arc_of(const struct flat *flat, const struct node *node, int answer)
-{
-    return &flat->dag->arcs[node->arcs.first + answer];
-}
-
-/* Out of a function for a piece of the graph: by which exit; -1: the answer stays in it. */
-static int exit_of(const struct flat *flat, const struct node *node, int answer)
-{
-    const struct shared *s = flat->inside;
-    return s == NULL ? -1 : s->exit_of[s->first_answer[flat->member[node->order]] + answer];
-}
-
-/* Two exits are two ways, also where the use that the nodes are of sends both to one place. */
-static int same_way_on(const struct flat *flat, const struct node *node, int a, int b)
-{
-    return exit_of(flat, node, a) == exit_of(flat, node, b)
-           && same_target(&arc_of(flat, node, a)->target, &arc_of(flat, node, b)->target);
-}
-
-/* Do all answers lead to one target? Then there is nothing to ask. */
-static int decides_nothing(const struct flat *flat, const struct node *node)
-{
-    for (int i = 1; i < node->arcs.count; i++)
-        if (!same_way_on(flat, node, 0, i))
-            return 0;
-    return 1;
-}
 
 /* Is it to be given back? What a decision merely keeps, and no node handles, is as it came. */
 static int gives_back(const struct flat *flat, const struct need *need)
@@ -72,78 +31,16 @@ int dag_flat_has_leaf(const struct flat *flat, const struct target *target)
     return 0;
 }
 
-static int part_of(const struct flat *flat, int place)
-{
-    return flat->parts == 1 ? 0 : place / PART_NODES;
-}
-
-static const struct node *node_at(const struct flat *flat, int place)
-{
-    return &flat->dag->nodes[flat->dag->order[flat->oracle->order.first + place]];
-}
-
-/* The copy that stands behind this one; -1: it is the last. */
-int dag_flat_behind(const struct flat *flat, int copy)
-{
-    const struct copy *c = &flat->copies.items[copy];
-    if (c->next >= 0)
-        return c->next;
-    return c->place + 1 < flat->oracle->order.count ? flat->copies.first[c->place + 1] : -1;
-}
-
-/* What stands next needs no goto when nothing is asked before it: the copy behind, or, after the
- * last one, the first of the shared leaves. */
-static int falls_through(const struct flat *flat, int copy)
-{
-    const struct copy *c = &flat->copies.items[copy];
-    const struct node *node = node_at(flat, c->place);
-    const struct target *target = &arc_of(flat, node, 0)->target;
-    int behind = dag_flat_behind(flat, copy);
-    if (!decides_nothing(flat, node) || flat->shared_count > 0)
-        return 0;
-    if (target->kind == TARGET_NODE) {
-        const struct way *way = &flat->copies.ways[c->ways[0]];
-        return way->cut == 0 && way->below == behind
-               && part_of(flat, c->place) == part_of(flat, flat->copies.items[behind].place);
-    }
-    return flat->parts == 1 && behind < 0 && target->index == flat->first_leaf;
-}
-
-static void label_way(struct flat *flat, int number)
-{
-    const struct way *way = &flat->copies.ways[number];
-    if (way->cut == 0)
-        flat->node_label[way->below] = 1;
-    else {
-        label_way(flat, way->below);
-        label_way(flat, way->above);
-    }
-}
-
-void dag_flat_mark_labels(struct flat *flat, int copy)
-{
-    const struct copy *c = &flat->copies.items[copy];
-    const struct node *node = node_at(flat, c->place);
-    int through = falls_through(flat, copy);
-    for (int a = 0; a < node->arcs.count && !through; a++) {
-        const struct target *target = &arc_of(flat, node, a)->target;
-        if (target->kind == TARGET_NODE)
-            label_way(flat, c->ways[a]);
-        else if (dag_flat_has_leaf(flat, target))
-            flat->leaf_label[target->index] = 1;
-    }
-}
-
 static void find_labels(struct flat *flat)
 {
     int arcs = 0;
     flat->entry[0] = 1;
     for (int i = 0; i < flat->oracle->order.count; i++) {
-        const struct node *node = node_at(flat, i);
+        const struct node *node = dag_flat_at(flat, i);
         flat->first_arc[i] = arcs;
         arcs += node->arcs.count;
         for (int a = 0; a < node->arcs.count; a++) {
-            const struct target *target = &arc_of(flat, node, a)->target;
+            const struct target *target = &dag_flat_arc(flat, node, a)->target;
             if (dag_flat_has_leaf(flat, target)) {
                 flat->leaf_used[target->index] = 1;
                 if (flat->first_leaf < 0 || target->index < flat->first_leaf)
@@ -151,281 +48,12 @@ static void find_labels(struct flat *flat)
             }
             if (target->kind == TARGET_NODE) {
                 int to = flat->dag->nodes[target->index].order;
-                flat->entry[to] |= part_of(flat, i) != part_of(flat, to);
+                flat->entry[to] |= dag_flat_part(flat, i) != dag_flat_part(flat, to);
             }
         }
     }
     for (int i = 0; i < flat->copies.count; i++)
         dag_flat_mark_labels(flat, i);
-}
-
-static void print_constant(struct text *out, const char *prefix, const char *name)
-{
-    dag_print_upper(out, prefix);
-    dag_print(out, "_");
-    dag_print_upper(out, name);
-}
-
-/* In a part: the number of the node to go on with elsewhere, or ~decision. */
-static void print_jump_in_part(const struct flat *flat, int from, const struct target *target)
-{
-    if (target->kind != TARGET_NODE) {
-        dag_print(flat->out, "return ~(int)");
-        print_constant(flat->out, "decision", flat->dag->decisions[target->index].name);
-        dag_print(flat->out, ";\n");
-    } else if (part_of(flat, from) == part_of(flat, flat->dag->nodes[target->index].order))
-        dag_print(flat->out, "goto node_%s;\n", flat->dag->nodes[target->index].name);
-    else
-        dag_print(flat->out, "return %d;\n", flat->dag->nodes[target->index].order);
-}
-
-/* "node_NAME", or of its copies but the first "copyN_NAME". */
-void dag_flat_label(const struct flat *flat, int copy)
-{
-    const struct copy *c = &flat->copies.items[copy];
-    if (c->number == 0)
-        dag_print(flat->out, "node_%s", node_at(flat, c->place)->name);
-    else
-        dag_print(flat->out, "copy%d_%s", c->number + 1, node_at(flat, c->place)->name);
-}
-
-static const char *level_name(const struct dag *dag, const struct term *term, int level)
-{
-    return term->levels.count == 0 ? "present" : dag->levels[term->levels.first + level - 1].name;
-}
-
-/* goto the copy, or by a look to one of more; behind `indent` spaces, which stand already. */
-static void print_way(const struct flat *flat, int number, int indent)
-{
-    const struct way *way = &flat->copies.ways[number];
-    if (way->cut == 0) {
-        dag_print(flat->out, "goto ");
-        dag_flat_label(flat, way->below);
-        dag_print(flat->out, ";\n");
-        return;
-    }
-    const struct term *term = &flat->dag->terms[way->term];
-    const struct way *above = &flat->copies.ways[way->above];
-    if (flat->flavour == FLAVOUR_COUNTED && way->checked)
-        dag_print(flat->out, "counters->checks++;\n%*s", indent, "");
-    dag_print(flat->out, "if (%sterms.%s_level >= ", flat->of, term->name);
-    print_constant(flat->out, term->name, level_name(flat->dag, term, way->cut));
-    dag_print(flat->out, ")%s\n%*s", above->cut > 0 ? " {" : "", indent + 4, "");
-    print_way(flat, way->above, indent + 4);
-    if (above->cut > 0)
-        dag_print(flat->out, "%*s}\n", indent, "");
-    dag_print(flat->out, "%*s", indent, "");
-    print_way(flat, way->below, indent);
-}
-
-/* 0: the answer does not leave the function. */
-static int print_exit(const struct flat *flat, const struct node *node, int answer)
-{
-    int exit = exit_of(flat, node, answer);
-    if (exit >= 0)
-        dag_print(flat->out, "return %d;\n", exit);
-    return exit >= 0;
-}
-
-void dag_flat_jump(const struct flat *flat, int from, const struct target *target, int way,
-                   int indent)
-{
-    if (flat->parts > 1)
-        print_jump_in_part(flat, from, target);
-    else if (target->kind == TARGET_NODE)
-        print_way(flat, way, indent);
-    else if (dag_flat_has_leaf(flat, target))
-        dag_print(flat->out, "goto leaf_%s;\n", flat->dag->decisions[target->index].name);
-    else {
-        dag_print(flat->out, "return ");
-        print_constant(flat->out, "decision", flat->dag->decisions[target->index].name);
-        dag_print(flat->out, ";\n");
-    }
-}
-
-/* A local copy of the discussion does not come back: its owner's is told what is no number. */
-static struct place place_of(const struct flat *flat)
-{
-    return (struct place){flat->at, flat->parts > 1 ? flat->at : "discussion", flat->inside};
-}
-
-static void print_call(const struct flat *flat, const struct node *node)
-{
-    const struct place place = place_of(flat);
-    int value = 0;
-    dag_print(flat->out, "%s_%s(%s", flat->parts > 1 ? "ask" : "tool",
-              flat->dag->tools[node->tool].name, flat->at);
-    for (int i = 0; i < node->arguments.count; i++) {
-        dag_print(flat->out, ", ");
-        dag_emit_expression(flat->dag, flat->out, node,
-                            &flat->dag->arguments[node->arguments.first + i], &place, &value);
-    }
-    dag_print(flat->out, ")");
-}
-
-/* The answers that share a target share a jump; the last ones are the default, so that the
- * compiler need not think of an answer that does not exist. */
-static void print_switch(const struct flat *flat, const struct node *node, const struct copy *copy)
-{
-    const struct tool *tool = &flat->dag->tools[node->tool];
-    const struct answer *answers = &flat->dag->answers[tool->answers.first];
-    unsigned char done[ANSWERS_MAX] = {0};
-    int left = node->arcs.count;
-    if (flat->flavour == FLAVOUR_PLAIN) {
-        dag_print(flat->out, "    switch (");
-        print_call(flat, node);
-        dag_print(flat->out, ") {\n");
-    } else
-        dag_print(flat->out, "    switch (answer) {\n");
-    for (int i = 0; i < node->arcs.count; i++) {
-        const struct target *target = &arc_of(flat, node, i)->target;
-        for (int j = i; j < node->arcs.count; j++)
-            if (!done[j] && same_way_on(flat, node, i, j)) {
-                dag_print(flat->out, "    case ");
-                print_constant(flat->out, tool->name, answers[j].name);
-                dag_print(flat->out, ":\n");
-                done[j] = 2;
-                left--;
-            }
-        if (done[i] == 2) {
-            dag_print(flat->out, "%s", left == 0 ? "    default:\n" : "");
-            dag_flat_directive(flat, arc_of(flat, node, i)->where);
-            dag_print(flat->out, "        ");
-            if (!print_exit(flat, node, i))
-                dag_flat_jump(flat, node->order, target, copy->ways[i], 8);
-        }
-        for (int j = i; j < node->arcs.count; j++)
-            done[j] = done[j] != 0;
-    }
-    dag_print(flat->out, "    }\n");
-}
-
-/* The terms that the node handles, one by one: its arguments', then its tool's; -1: no more. */
-static int term_of(const struct dag *dag, const struct node *node, int need)
-{
-    const struct tool *tool = &dag->tools[node->tool];
-    if (need < node->reads.count)
-        return dag->needs[node->reads.first + need].term;
-    need -= node->reads.count;
-    if (need < tool->reads.count)
-        return dag->needs[tool->reads.first + need].term;
-    need -= tool->reads.count;
-    return need < tool->writes.count ? dag->needs[tool->writes.first + need].term : -1;
-}
-
-/* Is it worth telling the compiler that a term is known? With one arc it has seen why. */
-static int is_fact(const struct flat *flat, const struct copy *copy, int term)
-{
-    return copy->known.low[term] > 0 && copy->arcs_in > 1 && flat->parts == 1
-           && flat->inside == NULL;
-}
-
-/* What the analysis knows of the terms that the node handles, for the reader as a comment
- * and, where several arcs meet, for the compiler as a fact. */
-static void print_known(const struct flat *flat, const struct copy *copy)
-{
-    const struct dag *dag = flat->dag;
-    const struct node *node = node_at(flat, copy->place);
-    for (int i = 0, term; (term = term_of(dag, node, i)) >= 0; i++) {
-        const struct term *t = &dag->terms[term];
-        int low = copy->known.low[term], high = copy->known.high[term];
-        int seen = 0;
-        for (int j = 0; j < i; j++)
-            seen |= term_of(dag, node, j) == term;
-        if (seen)
-            continue;
-        if (low > 0)
-            dag_print(flat->out, "    /* %s: %s%s on every path */\n", t->name,
-                      level_name(dag, t, low), low < t->levels.count ? " or better" : "");
-        else
-            dag_print(flat->out, "    /* %s: %s */\n", t->name,
-                      high == 0 ? "absent on every path" : "checked: not every path has it");
-        if (is_fact(flat, copy, term)) {
-            dag_print(flat->out, "    KNOWN(%sterms.%s_level >= ", flat->of, t->name);
-            print_constant(flat->out, t->name, level_name(dag, t, low));
-            dag_print(flat->out, ");\n");
-        }
-    }
-}
-
-/* The call, counted or traced; `answer` holds what it said. */
-static void print_watched(const struct flat *flat, const struct node *node)
-{
-    dag_print(flat->out, "    answer = (int)");
-    print_call(flat, node);
-    dag_print(flat->out, ";\n");
-    if (flat->flavour == FLAVOUR_COUNTED)
-        dag_print(flat->out, "    %s_count(counters, %d, %d + answer, began);\n",
-                  flat->oracle->name, node->order, flat->first_arc[node->order]);
-    else
-        dag_print(flat->out, "    trace(context, %s, %d, %d + answer);\n", flat->at, node->order,
-                  flat->first_arc[node->order]);
-}
-
-/* "FILE:LINE", and for a copy out of a branch the places that use it, from the inside out. */
-static void print_place(const struct flat *flat, const struct node *node)
-{
-    const struct dag *dag = flat->dag;
-    struct where where = node->where;
-    const char *before = "    /* ";
-    for (int use = node->use;; use = dag->uses[use].outer) {
-        const struct source *source = &dag->sources[where.source];
-        dag_print(flat->out, "%s", before);
-        dag_print_comment(flat->out, source->base);
-        dag_print(flat->out, ":%d", dag_line(source, where.offset));
-        before = ", used at ";
-        if (use < 0)
-            break;
-        where = dag->uses[use].where;
-    }
-    dag_print(flat->out, " */\n");
-}
-
-void dag_flat_node(const struct flat *flat, int at)
-{
-    const struct copy *copy = &flat->copies.items[at];
-    const struct node *node = node_at(flat, copy->place);
-    const struct place place = place_of(flat);
-    int block = dag_has_reads(flat->dag, node, &place);
-    dag_print(flat->out, "\n");
-    dag_flat_directive(flat, node->where);
-    if (flat->node_label[at] || (flat->parts > 1 && flat->entry[node->order])) {
-        dag_flat_label(flat, at);
-        dag_print(flat->out, ":\n");
-    }
-    if (flat->lines)
-        print_place(flat, node);
-    print_known(flat, copy);
-    if (block) /* C++ may not jump past a constant: it gets a block */
-        dag_print(flat->out, "    {\n");
-    if (flat->flavour == FLAVOUR_COUNTED) /* what the arguments compute is the node's time, too */
-        dag_print(flat->out, "    began = %s_clock(counters);\n", flat->oracle->name);
-    if (block) {
-        dag_flat_directive(flat, node->tool_where);
-        dag_emit_reads(flat->dag, flat->out, node, &place);
-    }
-    if (flat->flavour == FLAVOUR_COUNTED && copy->checks > 0)
-        dag_print(flat->out, "    counters->checks += %d;\n", copy->checks);
-    dag_flat_directive(flat, node->tool_where);
-    if (flat->flavour != FLAVOUR_PLAIN)
-        print_watched(flat, node);
-    if (!decides_nothing(flat, node)) {
-        print_switch(flat, node, copy);
-        dag_print(flat->out, "%s", block ? "    }\n" : "");
-        return;
-    }
-    if (flat->flavour == FLAVOUR_PLAIN) {
-        dag_print(flat->out, "    (void)");
-        print_call(flat, node);
-        dag_print(flat->out, ";\n");
-    }
-    dag_print(flat->out, "%s", block ? "    }\n" : "");
-    if (!falls_through(flat, at)) {
-        dag_flat_directive(flat, arc_of(flat, node, 0)->where);
-        dag_print(flat->out, "    ");
-        if (!print_exit(flat, node, 0))
-            dag_flat_jump(flat, node->order, &arc_of(flat, node, 0)->target, copy->ways[0], 4);
-    }
 }
 
 static void print_leaf(const struct flat *flat, const struct decision_tool *decision)
@@ -450,14 +78,14 @@ static void print_leaf(const struct flat *flat, const struct decision_tool *deci
                   term->name);
     }
     dag_print(flat->out, "    return ");
-    print_constant(flat->out, "decision", decision->name);
+    dag_flat_constant(flat->out, "decision", decision->name);
     dag_print(flat->out, ";\n");
 }
 
 static int uses_parameters(const struct flat *flat)
 {
     for (int i = 0; i < flat->oracle->order.count; i++) {
-        const struct node *node = node_at(flat, i);
+        const struct node *node = dag_flat_at(flat, i);
         for (int a = 0; a < node->arguments.count; a++) {
             int value = flat->dag->arguments[node->arguments.first + a].expression;
             if (dag_reads_parameters(flat->dag, value))
@@ -479,7 +107,7 @@ static void print_unknown(const struct flat *flat, int number, const char *inden
     if (length == 1)
         dag_print(flat->out, "d.terms.%s = ", term->name);
     dag_print(flat->out, "0;\n%sd.terms.%s_level = ", indent, term->name);
-    print_constant(flat->out, term->name, "absent");
+    dag_flat_constant(flat->out, term->name, "absent");
     dag_print(flat->out, ";\n");
 }
 
@@ -505,7 +133,7 @@ static void print_starts(const struct flat *flat)
     struct text *out = flat->out;
     if (copies->look_count == 0) {
         dag_print(out, "    ");
-        print_way(flat, copies->general, 4);
+        dag_flat_way(flat, copies->general, 4);
         return;
     }
     if (flat->flavour == FLAVOUR_COUNTED)
@@ -515,7 +143,7 @@ static void print_starts(const struct flat *flat)
         const struct look *look = &copies->looks[i];
         const struct term *term = &flat->dag->terms[look->term];
         dag_print(out, "%s(d.terms.%s_level >= ", i > 0 ? "\n            + " : "", term->name);
-        print_constant(out, term->name, level_name(flat->dag, term, look->level));
+        dag_flat_constant(out, term->name, dag_flat_level(flat->dag, term, look->level));
         dag_print(out, ") * %d", look->weight);
     }
     dag_print(out, ") {\n");
@@ -526,10 +154,10 @@ static void print_starts(const struct flat *flat)
             if (same_way(copies, copies->starts[i], next))
                 continue;
             dag_print(out, "        ");
-            print_way(flat, copies->starts[i], 8);
+            dag_flat_way(flat, copies->starts[i], 8);
         }
     dag_print(out, "    default:\n        ");
-    print_way(flat, copies->general, 8);
+    dag_flat_way(flat, copies->general, 8);
     dag_print(out, "    }\n");
 }
 
@@ -549,7 +177,7 @@ static void print_absent(const struct flat *flat)
         if (dag_is_kept(flat->dag, i))
             print_unknown(flat, i, "        ");
     dag_print(flat->out, "        ");
-    print_way(flat, flat->copies.nothing, 8);
+    dag_flat_way(flat, flat->copies.nothing, 8);
     dag_print(flat->out, "    }\n");
     print_starts(flat);
 }
@@ -601,7 +229,7 @@ static void print_part(const struct flat *flat, int part)
     for (int i = first; i < end; i++)
         if (flat->entry[i])
             dag_print(out, "    case %d:\n%s        goto node_%s;\n", i,
-                      --left == 0 ? "    default:\n" : "", node_at(flat, i)->name);
+                      --left == 0 ? "    default:\n" : "", dag_flat_at(flat, i)->name);
     dag_print(out, "    }\n");
     for (int i = first; i < end; i++)
         dag_flat_node(flat, flat->copies.first[i]);
@@ -632,7 +260,7 @@ static void print_parts_loop(const struct flat *flat)
     for (int i = 0; i < flat->dag->decision_count; i++)
         if (flat->leaf_used[i]) {
             dag_print(out, "    if (~at == (int)");
-            print_constant(out, "decision", flat->dag->decisions[i].name);
+            dag_flat_constant(out, "decision", flat->dag->decisions[i].name);
             dag_print(out, ")\n        goto leaf_%s;\n", flat->dag->decisions[i].name);
         }
     dag_print(out, "    return (enum decision)~at;\n");
@@ -676,14 +304,14 @@ static struct flat open_flat(struct dag *dag, struct text *out, const struct ora
     flat.leaf_used = dag_alloc(&dag->arena, (size_t)dag->decision_count);
     flat.handled = dag_alloc(&dag->arena, (size_t)dag->term_count);
     for (int i = 0, term; i < oracle->order.count; i++)
-        for (int k = 0; (term = term_of(dag, node_at(&flat, i), k)) >= 0; k++)
+        for (int k = 0; (term = dag_flat_term(dag, dag_flat_at(&flat, i), k)) >= 0; k++)
             flat.handled[term] = 1;
     find_labels(&flat);
     if (flat.most > 1) {
-        label_way(&flat, flat.copies.general);
-        label_way(&flat, flat.copies.nothing);
+        dag_flat_label_way(&flat, flat.copies.general);
+        dag_flat_label_way(&flat, flat.copies.nothing);
         for (int i = 0; i < flat.copies.start_count; i++)
-            label_way(&flat, flat.copies.starts[i]);
+            dag_flat_label_way(&flat, flat.copies.starts[i]);
     }
     return flat;
 }
@@ -694,9 +322,9 @@ int dag_emit_states_facts(struct dag *dag, const struct emit_options *options)
         struct flat flat = open_flat(dag, NULL, &dag->oracles[i], FLAVOUR_PLAIN, options);
         for (int n = 0; n < flat.copies.count; n++) {
             const struct copy *copy = &flat.copies.items[n];
-            const struct node *node = node_at(&flat, copy->place);
-            for (int k = 0, term; (term = term_of(dag, node, k)) >= 0; k++)
-                if (is_fact(&flat, copy, term))
+            const struct node *node = dag_flat_at(&flat, copy->place);
+            for (int k = 0, term; (term = dag_flat_term(dag, node, k)) >= 0; k++)
+                if (dag_flat_is_fact(&flat, copy, term))
                     return 1;
         }
     }
