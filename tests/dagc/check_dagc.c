@@ -506,15 +506,10 @@ START_TEST(memory)
 }
 END_TEST
 
-int main(int count, char **arguments)
+int main(void)
 {
-    (void)count;
-    const char *given = getenv("DAGC"), *slash = strrchr(arguments[0], '/');
-    if (given != NULL)
-        snprintf(dagc, sizeof dagc, "%s", given);
-    else
-        snprintf(dagc, sizeof dagc, "%.*s/../dagc", slash == NULL ? 1 : (int)(slash - arguments[0]),
-                 slash == NULL ? "." : arguments[0]);
+    const char *given = getenv("DAGC");
+    snprintf(dagc, sizeof dagc, "%s", given ? given : "build/bin/dagc");
     Suite *suite = suite_create("dagc");
     TCase *library = tcase_create("library"), *scripts = tcase_create("scripts");
     tcase_add_checked_fixture(library, setup, NULL);

@@ -452,16 +452,10 @@ START_TEST(user_tool)
 }
 END_TEST
 
-int main(int count, char **arguments)
+int main(void)
 {
-    (void)count;
-    const char *given = getenv("DAGC"), *slash = strrchr(arguments[0], '/');
-    if (given != NULL)
-        snprintf(dagc, sizeof dagc, "%s", given);
-    else
-        snprintf(dagc, sizeof dagc, "%.*s/../bin/dagc",
-                 slash == NULL ? 1 : (int)(slash - arguments[0]),
-                 slash == NULL ? "." : arguments[0]);
+    const char *given = getenv("DAGC");
+    snprintf(dagc, sizeof dagc, "%s", given ? given : "build/bin/dagc");
     Suite *suite = suite_create("language");
     TCase *library = tcase_create("library"), *programs = tcase_create("programs");
     tcase_set_timeout(programs, 300);
