@@ -255,9 +255,29 @@ struct batches {
     struct mail *mail; /* [batch]; NULL: all counts stay here */
 };
 
+/* The particles low .. high - 1 of a batch in the order of where they begin on the line of
+ * emitters: those of a run of the sequence fall evenly on it, one at a time here and there. One
+ * after the other they find faces, and what rays pass by, where the one before has just been. */
+static void order_by_emitter(const struct batches *all, const struct batch *batch, uint64_t low,
+                             uint64_t high, uint16_t order[BATCH])
+{
+    uint16_t first[BATCH + 1] = {0}, place[BATCH];
+    const uint32_t count = (uint32_t)(high - low);
+    for (uint32_t i = 0; i < count; i++) {
+        const double u = sobol_sequence_at(&all->t->sobol, (uint32_t)(low + i), 0, batch->shift[0]);
+        place[i] = (uint16_t)(u * BATCH);
+        first[place[i] + 1]++;
+    }
+    for (int k = 0; k < BATCH; k++)
+        first[k + 1] = (uint16_t)(first[k + 1] + first[k]);
+    for (uint32_t i = 0; i < count; i++)
+        order[first[place[i]]++] = (uint16_t)i;
+}
+
 static void trace_batches(const void *batches, size_t begin, size_t end)
 {
     const struct batches *all = batches;
+    uint16_t order[BATCH];
     for (uint64_t i = begin; i < end; i++) {
         const uint64_t b = (all->done + i) * all->ranks + all->rank;
         struct batch batch = {.replicate = (int)(b % REPLICATES),
@@ -268,8 +288,9 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
         if (watched_loop_stopped(all->loop))
             continue;
         sobol_sequence_shifts(set, batch.shift);
+        order_by_emitter(all, &batch, low, high, order);
         for (uint64_t k = low; k < high; k++)
-            trace(all->tally, all->t, k, &batch);
+            trace(all->tally, all->t, low + order[k - low], &batch);
         count_landings(all->tally, all->t, &batch);
         all->sums->rays += batch.rays;
         for (int k = 0; k < 3; k++) {
