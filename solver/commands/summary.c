@@ -258,8 +258,9 @@ static void print_links(const struct options *o, const struct RadReport *r)
            (unsigned long long)r->links, (unsigned long long)r->pairs,
            (unsigned long long)r->rounds, (double)r->rays);
     print_marks(r);
-    printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
-           r->residual, r->converged ? "converged" : "NOT converged: ", cause);
+    printf("solution  %d pass%s, %d sweep%s, residual %.1e, %s%s\n", r->passes,
+           r->passes == 1 ? "" : "es", r->iterations, r->iterations == 1 ? "" : "s", r->residual,
+           r->converged ? "converged" : "NOT converged: ", cause);
     print_solver(o, r);
     if (r->linear.sweeps)
         printf(

@@ -78,6 +78,7 @@ static int read_tolerance(struct options *o, const struct option_row *row, const
     (void)row;
     char *end;
     o->tolerance = decimal(value, &end);
+    o->tolerance_given = 1;
     return end == value || *end || !(o->tolerance > 0 && o->tolerance < 1) ? -1 : 0;
 }
 

@@ -198,13 +198,28 @@ static int is_help(const char *argument)
            || strcmp(argument, "-h") == 0;
 }
 
+/* `help`, of a command where one is named. Returns the exit status. */
+static int help_on(int count, char **arguments)
+{
+    enum command command;
+    if (count < 1 || is_help(arguments[0]) || strcmp(arguments[0], "help") == 0)
+        return print_help();
+    if (command_of(count, arguments, &command))
+        return print_command_help(command, 0);
+    if (strcmp(arguments[0], "study") != 0)
+        return wrong("", "unknown command %s", arguments[0]);
+    return count < 2 ? print_studies_help() : wrong("study", "there is no study %s", arguments[1]);
+}
+
 /* The arguments name no command. Returns the exit status. */
 static int without_command(int count, char **arguments)
 {
     if (count < 2 || !*arguments[1])
         return wrong("", "no command is given");
-    if (is_help(arguments[1]) || strcmp(arguments[1], "help") == 0)
+    if (is_help(arguments[1]))
         return print_help();
+    if (strcmp(arguments[1], "help") == 0)
+        return help_on(count - 2, arguments + 2);
     if (strcmp(arguments[1], "--version") == 0) {
         printf("radiosity %s\n", RADIOSITY_VERSION);
         return 0;
@@ -442,11 +457,14 @@ static int check_matrix(const struct options *o, const char *name)
 /* Of viewfactors: what is written in place of the matrix. */
 static int check_rows_or_columns(const struct options *o, const char *name)
 {
-    if (o->sensor && (o->format_given || o->closure || o->setting_count))
+    if (o->sensor && (o->format_given || o->closure || o->tolerance_given || o->setting_count))
         return wrong(name, "--sensor writes a table of exact cuts: it does not go with %s",
-                     o->format_given ? "--format"
-                     : o->closure    ? "--closure"
-                                     : "--set");
+                     o->format_given      ? "--format"
+                     : o->closure         ? "--closure"
+                     : o->tolerance_given ? "--tolerance"
+                                          : "--set");
+    if (o->sensor && o->names)
+        return wrong(name, "--sensor's file names the rows itself: it does not go with --names");
     if (o->sensor && o->resume)
         return wrong(name, "--sensor is soon done: it does not go with --resume");
     if (o->product && (!o->out || o->sensor || o->format_given))
@@ -478,6 +496,33 @@ static int check_accuracy(const struct options *o, const char *name)
     return -1;
 }
 
+/* What is about links says nothing where there are none. */
+static int check_no_links(const struct options *o, const char *name)
+{
+    const struct {
+        int given;
+        const char *option, *does;
+    } about[] = {
+        {o->errors == ERRORS_ALL, "--errors=all", "accounts for links"},
+        {o->closure == RAD_CLOSURE_ROWS, "--closure", "scales what links bring"},
+        {o->tolerance_given, "--tolerance", "ends sweeps over links"},
+        {o->solver != RAD_SOLVER_GAUSS_SEIDEL, "--solver", "sweeps over links"},
+        {o->projection != RAD_PROJECTION_GALERKIN, "--projection", "is of links"},
+        {o->oracle && strcmp(o->oracle, RAD_DEFAULT_ORACLE) != 0, "--oracle", "makes links"},
+        {o->setting_count > 0, "--set", "is for an oracle, which makes links"},
+        {o->params != NULL, "--params", "is for an oracle, which makes links"},
+        {o->replacement_count > 0, "--replace", "is for an oracle, which makes links"},
+        {o->trace != NULL, "--trace", "watches links being made"},
+        {o->statistics != NULL, "--statistics", "counts how links are made"},
+        {o->checkpoint != NULL, "--checkpoint", "keeps links"},
+        {o->restart != NULL, "--restart", "takes links from a file"}};
+    for (size_t i = 0; o->no_links && i < sizeof about / sizeof *about; i++)
+        if (about[i].given)
+            return wrong(name, "%s %s: it does not go with --scale none", about[i].option,
+                         about[i].does);
+    return -1;
+}
+
 static int check_solver(const struct options *o, const char *name)
 {
     if (!radHasSolver(o->solver))
@@ -504,8 +549,6 @@ static int check_picture(const struct options *o, const char *name)
 
 static int check_errors(const struct options *o, const char *name)
 {
-    if (o->no_links && o->errors == ERRORS_ALL)
-        return wrong(name, "--errors=all accounts for links: it does not go with --scale none");
     if (o->correct && o->no_correct)
         return wrong(name, "--correct and --no-correct contradict each other");
     if (o->no_errors && (o->errors || o->image_error))
@@ -538,8 +581,8 @@ static void settle(struct options *o)
 static int check_together(struct options *o)
 {
     static int (*const checks[])(const struct options *, const char *) = {
-        check_needed,   check_watching, check_checkpoints, check_matrix, check_rows_or_columns,
-        check_accuracy, check_solver,   check_picture,     check_errors};
+        check_needed,   check_watching, check_checkpoints, check_matrix,  check_rows_or_columns,
+        check_accuracy, check_no_links, check_solver,      check_picture, check_errors};
     int status = -1;
     settle(o);
     for (size_t i = 0; i < sizeof checks / sizeof *checks && status < 0; i++)
@@ -559,7 +602,7 @@ int options_parse(struct options *o, int count, char **arguments)
     for (int i = 0; i < option_row_count && status < 0; i++)
         if (option_rows[i].commands >> o->command & 1 && option_rows[i].preset)
             status = read_value(o, &option_rows[i], option_rows[i].preset);
-    o->size_given = 0;
+    o->size_given = o->tolerance_given = 0;
     struct option longs[OPTIONS_MAX];
     char shorts[OPTIONS_MAX];
     options_of(o->command, longs, shorts);

@@ -79,6 +79,7 @@ struct options {
     int choose_scale; /* it is chosen then; else 1 */
     int no_links;     /* instead: particles alone */
     double tolerance;
+    int tolerance_given;
     enum RadSolver solver;
     enum RadProjection projection;
     int iterations, threads, two_sided, quiet;

@@ -51,7 +51,8 @@ void solved_close(struct solved *s)
 
 void solved_cause(const struct RadReport *r, char text[SOLVED_CAUSE])
 {
-    if (r->changing)
+    /* Where sweeps were too few, links change for what they left, and more of them come first. */
+    if (r->changing && !(r->solved.bound > r->solved.tolerance))
         snprintf(text, SOLVED_CAUSE,
                  "%llu links still change after %d passes; larger thresholds (--set) split less",
                  (unsigned long long)r->changing, r->passes);

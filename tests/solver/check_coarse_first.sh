@@ -64,6 +64,13 @@ solve "$scenes/room.obj" --no-correct --set energy=8e-5 --set bend=2e-5 --set sh
 scaled "$scenes/room.obj" null false --scale none
 wrong "--scale" --scale 0
 wrong "--errors=all accounts for links" --scale none --errors=all
+# What is about links is not passed over where there are none.
+for option in "--closure rows" "--tolerance 1e-6" "--solver jacobi" "--projection collocation" "--oracle bf" "--set bend=1" \
+    "--params x" "--replace x=y" "--trace x" "--statistics x"; do
+    # shellcheck disable=SC2086
+    wrong "${option%% *} " --scale none $option
+    grep -q "does not go with --scale none" err || failed "--scale none $option"
+done
 wrong "--scale" --scale 1e9
 wrong "--scale" --scale x
 count=$((count + 1))

@@ -86,6 +86,9 @@ says 2 "--by takes face, material, group or object, not x" viewfactors "$scene" 
 says 2 "--format is about the matrix, which is written nowhere: add -o FILE" viewfactors "$scene" --format npz
 says 2 "--sky is about the matrix" viewfactors "$scene" --sky
 says 2 "--by is about the matrix" viewfactors "$scene" --by material
+# what sensors see is exact, and has names of its own
+says 2 "--sensor writes a table of exact cuts: it does not go with --tolerance" viewfactors "$scene" --sensor x --tolerance 1e-3
+says 2 "--sensor's file names the rows itself: it does not go with --names" viewfactors "$scene" --sensor x --names y
 says 2 "-o takes a file named .csv or .md, not x" study stability -o x
 says 2 "--chart takes a file named .svg or .png, not x.svgz" study visibility "$scene" --chart x.svgz
 
@@ -109,6 +112,8 @@ says 2 "study arvo takes no scene, but got x.obj" study arvo x.obj
 says 2 "oracles takes no scene, but got power; it tells of all oracles, \`radiosity draw NAME\` shows one" oracles power
 says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
+says 2 "unknown command nix; see radiosity --help" help nix
+says 2 "there is no study nix; see radiosity study --help" help study nix
 says 2 "a command comes first, not --image" --image x solve "$scene"
 says 2 "--mesh is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --mesh
 says 2 "--size is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --size 100x100
@@ -136,6 +141,9 @@ for command in "" solve compare viewfactors reference error tune study "study st
             failed "radiosity $command $help: $(wc -l <out) lines of $(wc -L <out) columns"
         fi
     done
+    count=$((count + 1))
+    # shellcheck disable=SC2086
+    "$radiosity" help $command | cmp -s - out || failed "radiosity help $command is not radiosity $command --help"
     count=$((count + 1))
     example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/; s/room\.json/none.obj/; s/mine\.dag/bf/; s/-o bf/-o x.dag/')
     # shellcheck disable=SC2086

@@ -75,6 +75,21 @@ START_TEST(test_links_change)
 }
 END_TEST
 
+/* The iteration ran out of sweeps, and links change for it: coarser ones are not the remedy. */
+START_TEST(test_few_sweeps_change_links)
+{
+    char text[4096];
+    report = (struct RadReport){.passes = 8, .iterations = 11, .changing = 15, .residual = 5e-4};
+    report.solved.bound = 1.8e-3;
+    report.solved.tolerance = 1e-3;
+    json_t *json = summarise(text, sizeof text);
+    ck_assert_ptr_nonnull(strstr(text, "NOT converged: allow more --iterations"));
+    ck_assert_ptr_null(strstr(text, "larger thresholds"));
+    ck_assert_int_eq(json_integer_value(json_object_get(json, "links_changing")), 15);
+    json_decref(json);
+}
+END_TEST
+
 /* No link changes, but the iteration ran out of sweeps. */
 START_TEST(test_iteration_ends)
 {
@@ -238,6 +253,7 @@ int main(void)
     TCase *c = tcase_create("converged");
     tcase_add_test(c, test_large_counts);
     tcase_add_test(c, test_links_change);
+    tcase_add_test(c, test_few_sweeps_change_links);
     tcase_add_test(c, test_iteration_ends);
     tcase_add_test(c, test_converged);
     tcase_add_test(c, test_error);
