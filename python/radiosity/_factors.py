@@ -23,7 +23,8 @@ class ViewFactors:
     """F_ij: the share of what leaves face i evenly that meets face j.
 
     matrix: scipy.sparse, compressed by rows. row_sums: of its rows; what lacks of 1 meets no face, or a black back.
-    areas: m2, of one side. names: of rows, where they are groups; else None.
+    areas: m2, of both sides of a face that has two, as both send: areas times F is the same both ways.
+    names: of rows, where they are groups; else None.
     report: what the computation found (struct RadExchangeReport of radiosity.h), before any closure.
     """
 
@@ -95,4 +96,4 @@ def compute_factors(scene, tolerance, closure, progress, resume):
     lib.radGetExchangeReport(exchange, report)
     if state:
         state.remove()
-    return ViewFactors(matrix, np.concatenate(sums), scene.areas, as_namespace(report[0]), groups=scene.groups)
+    return ViewFactors(matrix, np.concatenate(sums), scene.areas * scene._sides, as_namespace(report[0]), groups=scene.groups)

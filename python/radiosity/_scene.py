@@ -70,6 +70,7 @@ class Scene:
         scene.report, scene.groups = as_namespace(report[0]), groups
         areas = lib.radGetScenePolygonAreas(handle)
         scene.areas = np.frombuffer(ffi.buffer(areas, 8 * len(sizes)), dtype=float).copy()
+        scene._sides = 1 + rows[number, 6]
         _warn(scene.report)
         return scene
 

@@ -75,13 +75,16 @@ static int match(struct comparison *c)
             return report_error(reference, j + 2,
                                 "face %u is not in %s, which has %u; give tables of one scene",
                                 (unsigned)theirs->face[j], faces, (unsigned)mine->count);
-        /* Of a two-sided face a reference may count both sides, and a solution one. */
+        /* Of a two-sided face a table may count both sides, and another, which does not say how
+         * many there are, one: light leaves both. */
         double one = mine->area[i], other = theirs->area[j];
         if (!(fabs(one - other) <= AREA_DIFFERS * other)
-            && !(fabs(2 * one - other) <= AREA_DIFFERS * other))
+            && !(fabs(2 * one - other) <= AREA_DIFFERS * other)
+            && !(fabs(one - 2 * other) <= AREA_DIFFERS * one))
             return report_error(reference, j + 2,
                                 "face %u has %.9g m2, but in %s %.9g; give tables of one scene",
                                 (unsigned)theirs->face[j], other, faces, one);
+        theirs->area[j] = fmax(one, other);
         c->pairs[j] = (struct pair){.mine = i, .theirs = j};
     }
     return 0;
@@ -296,7 +299,8 @@ static void print_text(const struct comparison *c)
         print_norms("noise", all, noise_share);
         printf("noise: what the standard errors of the reference alone would look like\n");
     } else {
-        printf("the reference does not say how exact it is: it has no columns se_k\n");
+        printf("the reference does not say how exact it is: it has no se_k of B_k, as those of "
+               "`radiosity reference` have\n");
     }
     print_worst(c);
 }

@@ -17,19 +17,29 @@ struct total {
     double area, irradiance[3];
 };
 
-static void write_header(FILE *out, uint32_t bands, int measured)
+/* Does a face have two sides? Areas are of one, and who adds up light has to know it. */
+static int has_two_sided(const struct solution *s)
+{
+    uint32_t i = 0;
+    while (i < s->surfaces.polygon_count
+           && !s->surfaces.materials[s->surfaces.polygon_materials[i]].two_sided)
+        i++;
+    return i < s->surfaces.polygon_count;
+}
+
+static void write_header(FILE *out, uint32_t bands, int measured, int sides)
 {
     static const char *const quantity[] = {"E", "rho", "H", "B", "err", "se"};
     fputs("face,material,area", out);
     for (int q = 0; q < (measured ? 6 : 4); q++)
         for (uint32_t k = 0; k < bands; k++)
             fprintf(out, ",%s_%u", quantity[q], (unsigned)k);
-    putc('\n', out);
+    fputs(sides ? ",sides\n" : "\n", out);
 }
 
-/* errors: [2][bands][polygons], error and deviation; NULL: none. */
+/* errors: [2][bands][polygons], error and deviation; NULL: none. sides: tell how many it has. */
 static void write_row(FILE *out, const struct solution *s, uint32_t i, const struct total *t,
-                      const double *errors)
+                      const double *errors, int sides)
 {
     uint32_t material = s->surfaces.polygon_materials[i], bands = s->tree.bands;
     const struct RadMaterial *m = &s->surfaces.materials[material];
@@ -48,7 +58,7 @@ static void write_row(FILE *out, const struct solution *s, uint32_t i, const str
                 dropped ? 0 : m->exitance[k] + m->reflectance[k] * t->irradiance[k] / t->area);
     for (size_t k = 0; errors && k < 2 * (size_t)bands; k++)
         fprintf(out, ",%.6g", errors[k * s->surfaces.polygon_count + i]);
-    putc('\n', out);
+    fputs(!sides ? "\n" : m->two_sided ? ",2\n" : ",1\n", out);
 }
 
 /* Returns NULL when out of memory. */
@@ -82,9 +92,10 @@ int faces_csv_write(const char *path, const struct solution *s, RadSolution meas
         for (uint32_t k = 0; k < bands; k++)
             t->irradiance[k] += area * s->tree.irradiance[element * bands + k];
     }
-    write_header(file.stream, bands, measured != NULL);
+    const int sides = has_two_sided(s);
+    write_header(file.stream, bands, measured != NULL, sides);
     for (uint32_t i = 0; i < polygons; i++)
-        write_row(file.stream, s, i, &total[i], errors);
+        write_row(file.stream, s, i, &total[i], errors, sides);
     free(total);
     free(errors);
     return atomic_commit(&file);

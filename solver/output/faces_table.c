@@ -99,16 +99,20 @@ static int read_bands(const struct faces_table *t, double *values, const struct 
     for (uint32_t k = 0; values && k < t->bands; k++) {
         double *value = &values[(size_t)t->count * t->bands + k];
         if (!number(field[c->at[k]], value) || *value < least)
-            return report_error(path, t->count + 2, "'%s' is no %s", field[c->at[k]], what);
+            return report_error(path, t->count + 2, "'%s' is no %s; write W/m2, %s",
+                                field[c->at[k]], what, least < 0 ? "a finite number" : "0 or more");
     }
     return 0;
 }
 
 static int parse(struct faces_table *t, const char *path, size_t rows, uint32_t faces)
 {
-    char *text = t->text, *field[COLUMNS], *line = next_line(&text);
+    /* some programs begin a table with a byte order mark */
+    char *text = t->text + (strncmp(t->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0), *field[COLUMNS],
+         *line = next_line(&text);
     int columns = line ? split(line, field) : 0, face = find(field, columns, "face"),
-        area = find(field, columns, "area"), material = find(field, columns, "material");
+        area = find(field, columns, "area"), material = find(field, columns, "material"),
+        side = find(field, columns, "sides");
     const struct columns b = find_bands(field, columns, "B"), e = find_bands(field, columns, "E"),
                          error = find_bands(field, columns, "err");
     struct columns se = find_bands(field, columns, "se");
@@ -142,8 +146,12 @@ static int parse(struct faces_table *t, const char *path, size_t rows, uint32_t 
                                         "from 0 and rise",
                                         field[face]);
         t->face[t->count] = (uint32_t)index;
+        double sides = 1;
         if (!number(field[area], &t->area[t->count]) || !(t->area[t->count] >= 0))
-            return report_error(path, at, "'%s' is no area", field[area]);
+            return report_error(path, at, "'%s' is no area; write m2, 0 or more", field[area]);
+        if (side >= 0 && (!number(field[side], &sides) || (sides != 1 && sides != 2)))
+            return report_error(path, at, "'%s' is no number of sides; write 1 or 2", field[side]);
+        t->area[t->count] *= sides;
         if (read_bands(t, t->radiosity, &b, -HUGE_VAL, "radiosity", field, path) < 0
             || read_bands(t, t->exitance, &e, 0, "exitance", field, path) < 0
             || read_bands(t, t->deviation, &se, 0, "standard error", field, path) < 0)

@@ -9,7 +9,7 @@
 struct faces_table {
     uint32_t count, bands;
     uint32_t *face;        /* [count], rising: of the scene file */
-    double *area;          /* [count], m2 */
+    double *area;          /* [count], m2, of both sides where a column `sides` says 2 */
     double *radiosity;     /* [count * bands]: B, W/m2 */
     double *exitance;      /* [count * bands]: E, W/m2; NULL: the table has none */
     double *deviation;     /* [count * bands]: of B, one standard error, W/m2; NULL: none */

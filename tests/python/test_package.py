@@ -59,6 +59,21 @@ def test_cube():
     assert factors.report.rows_closed == 6 and factors.report.rows_open == 0 and len(factors) == 6
 
 
+def test_two_sides_in_groups():
+    """A screen that halves a room sends from both sides, and counts with both where it shares a group with a wall."""
+    corners = np.vstack([CORNERS, [[.5, 0, 0], [.5, 1, 0], [.5, 1, 1], [.5, 0, 1]]])
+    scene = radiosity.Scene.from_arrays(corners, np.vstack([CUBE, [[8, 9, 10, 11]]]), two_sided=[False] * 6 + [True])
+    factors = scene.view_factors()
+    near(scene.areas, 1, 1e-12)
+    near(factors.areas, [1] * 6 + [2], 1e-12)
+    groups = factors.by(list("abcdefa"))  # the screen and the ceiling
+    near(groups.areas, [3, 1, 1, 1, 1, 1], 1e-12)
+    for of in factors, groups:
+        sent = of.areas[:, None] * of.matrix.toarray()
+        near(sent, sent.T, 1e-12)
+        near(of.row_sums, 1, 3e-4)
+
+
 def test_triangles():
     labels = np.repeat(np.arange(6), 2)
     factors = radiosity.Scene.from_arrays(CORNERS, triangles(CUBE), groups=labels).view_factors()

@@ -329,15 +329,16 @@ START_TEST(test_table)
     ck_assert_ptr_nonnull(f);
     char line[256];
     ck_assert_ptr_nonnull(fgets(line, sizeof line, f));
-    ck_assert_str_eq(line, "face,material,area,E_0,rho_0,H_0,B_0\n");
+    ck_assert_str_eq(line, "face,material,area,E_0,rho_0,H_0,B_0,sides\n");
     for (; fgets(line, sizeof line, f); row++) {
         ck_assert_int_lt(row, FACES);
         char name[32];
         double area, e, rho, h, b;
-        int face;
-        ck_assert_int_eq(
-            sscanf(line, "%d,%31[^,],%lf,%lf,%lf,%lf,%lf", &face, name, &area, &e, &rho, &h, &b),
-            7);
+        int face, sides;
+        ck_assert_int_eq(sscanf(line, "%d,%31[^,],%lf,%lf,%lf,%lf,%lf,%d", &face, name, &area, &e,
+                                &rho, &h, &b, &sides),
+                         8);
+        ck_assert_int_eq(sides, row == 1 ? 2 : 1);
         ck_assert_int_eq(face, row);
         ck_assert_double_eq_tol(area, areas[row], 1e-6);
         ck_assert_double_eq_tol(h, row ? 2 : (4 * (1 - 0.36) + 1) / 2, 1e-5);

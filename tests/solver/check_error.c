@@ -122,6 +122,27 @@ START_TEST(bands_sides_samples)
 }
 END_TEST
 
+/* Tables of two solves say how many sides there are: light leaves both, also where one table counts
+ * one. A byte order mark, which spreadsheets write, is no part of the first column's name. */
+START_TEST(sides_of_solves)
+{
+    static const char *const solve =
+        "\xef\xbb\xbf"
+        "face,area,E_0,B_0,err_0,se_0,sides\n0,1,0,2,0,0,2\n1,4,0,1,0,0,1\n";
+    static const char *const finer =
+        "face,area,E_0,B_0,err_0,se_0,sides\n0,1,0,1,0,0,2\n1,4,0,1,0,0,1\n";
+    static const char *const of_one_side = "face,area,E_0,B_0\n0,1,0,1\n1,4,0,1\n";
+    static const char *const tables[] = {finer, of_one_side};
+    for (int i = 0; i < 2; i++) {
+        json_t *json = compare(solve, tables[i]);
+        is(json, NULL, "reflected_watts", 2 + 4);
+        is(json, "error", "power", 2. / 6);
+        is(json_array_get(json_object_get(json, "worst"), 0), NULL, "area", 2);
+        json_decref(json);
+    }
+}
+END_TEST
+
 /* se_k beside err_k is of the measured error, not of B; of two references both count. */
 START_TEST(deviations)
 {
@@ -171,6 +192,8 @@ START_TEST(bad_tables)
         {"face,area,E_0,B_0\n0,-1,1,1\n", REFERENCE, "a.csv:2: error: '-1' is no area"},
         {"face,area,E_0,B_0\n0,1,1,1\n0,1,1,1\n", REFERENCE, "a.csv:3: error: face '0' is out of"},
         {"face,area,E_0,B_0\n1e99,1,1,1\n", REFERENCE, "a.csv:2: error: face '1e99' is out of"},
+        {"face,area,E_0,B_0,sides\n0,1,1,1,3\n", REFERENCE,
+         "a.csv:2: error: '3' is no number of sides; write 1 or 2"},
         {FACES, "face,area,B_0,se_0\n0,1,10,-1\n", "b.csv:2: error: '-1' is no standard error"},
         {FACES, "face,area,B_0,B_1\n0,1,10,1\n", "b.csv:1: error: 2 bands of B, but a.csv has 1"},
         {FACES, "face,area,B_0\n0,1,10\n1,2,2\n", "b.csv: error: 2 faces, but a.csv has 3"},
@@ -208,6 +231,7 @@ int main(void)
     TCase *c = tcase_create("error");
     tcase_add_test(c, worked_by_hand);
     tcase_add_test(c, bands_sides_samples);
+    tcase_add_test(c, sides_of_solves);
     tcase_add_test(c, deviations);
     tcase_add_test(c, without_light);
     tcase_add_test(c, bad_tables);

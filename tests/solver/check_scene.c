@@ -1226,9 +1226,9 @@ START_TEST(test_faces_csv)
         l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL, NULL}, 0};
     ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &solution, NULL), 0);
     char *text = read_text(in_folder("f.csv"));
-    ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0\n"
-                           "0,\"a, \"\"b\"\"_2s\",0,0,0,0,0\n"
-                           "1,\"a, \"\"b\"\"_2s\",1,1,0.5,2,2\n");
+    ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0,sides\n"
+                           "0,\"a, \"\"b\"\"_2s\",0,0,0,0,0,2\n"
+                           "1,\"a, \"\"b\"\"_2s\",1,1,0.5,2,2,2\n");
     free(text);
     /* as names of rows are written: blanks at the ends are kept by quotes */
     static char in_front[] = " a", behind[] = "a ", within[] = "a b", empty[] = "";
