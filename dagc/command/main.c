@@ -226,6 +226,7 @@ static void watch_signals(void)
 {
     struct sigaction action;
     dag_tidy_watch();
+    signal(SIGXFSZ, SIG_IGN); /* a write to a file that may not grow tells so, as of a full disk */
     for (int i = 0; i < TIDY_SIGNALS; i++) {
         if (sigaction(dag_tidy_signals[i], NULL, &action) != 0 || action.sa_handler == SIG_IGN)
             continue;

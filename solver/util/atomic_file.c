@@ -26,6 +26,7 @@ static int fail(struct atomic_file *file, int cause)
                      : cause == EISDIR       ? "give the name of a file, not of a folder"
                      : cause == ENAMETOOLONG ? "give it a shorter name"
                      : cause == ENOSPC       ? "free some space or write elsewhere"
+                     : cause == EFBIG        ? "allow larger files (ulimit -f) or write elsewhere"
                                              : "choose a place where you may write");
     atomic_discard(file);
     return -1;

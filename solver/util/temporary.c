@@ -143,6 +143,8 @@ int temporary_stopping(void)
 
 void temporary_watch(void)
 {
+    /* who writes to a file that may not grow tells so, as of a full disk */
+    signal(SIGXFSZ, SIG_IGN);
     pthread_t thread;
     sigset_t every, before;
     sigfillset(&every);

@@ -75,6 +75,8 @@ check "output is a folder" fails_with 1 'cannot write folder' $run -o old.c --he
 check "all of this leaves files" untouched
 # shellcheck disable=SC2016
 check "a file that cannot grow" fails_with 1 'cannot write old.c' sh -c 'ulimit -f 1; trap "" XFSZ; exec "$@"' sh $run -o old.c --header old.h good.dag
+# shellcheck disable=SC2016
+check "a file that cannot grow, and a signal says so" fails_with 1 'cannot write old.c' sh -c 'ulimit -f 1; exec "$@"' sh $run -o old.c --header old.h good.dag
 check "a file that cannot grow leaves files" untouched
 check "full device" fails_with 1 'No space left' $run -o /dev/full good.dag
 check "full device as standard output" fails_with 1 'cannot write standard output' sh -c "$run good.dag >/dev/full"

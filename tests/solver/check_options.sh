@@ -291,6 +291,12 @@ for arguments in oracles --help "solve $scenes/furnace.obj"; do
     [ $? = 1 ] && grep -q "^standard output: error: cannot write: Bad file" err || failed "$arguments without standard output"
     rm -f err
 done
+# A file that may not grow is told, too; the signal that comes with it ends nobody, and nothing is left.
+count=$((count + 1))
+(ulimit -f 1; exec "$radiosity" solve "$scenes/cornell.obj" -q -o small.ply --no-correct --no-errors 2>err)
+[ $? = 1 ] && grep -q "^small.ply: error: cannot write: File too large; allow larger files" err && [ "$(ls -A)" = err ] ||
+    failed "a file that may not grow: $(ls -A)"
+rm -f err
 # So is a file, whoever writes it and however long ago the write was that failed.
 for format in ply obj gltf glb; do
     count=$((count + 1))
