@@ -93,6 +93,11 @@ static void print_element(const struct subject *s, int side, const char *role)
            e->area, e->centre[0], e->centre[1], e->centre[2], e->radiosity);
     if (e->children)
         printf(", %d parts", e->children);
+    /* the nearest face is taken, and a point may be mistyped */
+    const struct watched_end *end = &s->watch->end[side];
+    if (!*end->name && e->vertices)
+        printf(", %.2g m from the point",
+               polygon_distance(end->point, e->vertex, e->vertices, e->normal));
     printf("\n");
 }
 

@@ -93,6 +93,9 @@ points=$(awk '/"centre": \[/ { for (k = 0; k < 3; k++) { getline; gsub(/[ ,]/, "
 "$radiosity" explain "$room" "${coarse[@]}" --at "$points" --json y.json -q
 names() { sed -n 's/^    "name": "\(.*\)",/\1/p' "$1" | paste -sd, -; }
 check "--at $points: $(names y.json), not $pair" [ "$(names y.json)" = "$pair" ]
+# A point that is on no face stands for the nearest, and how far that is is told.
+"$radiosity" explain "$scenes/furnace.obj" --at .5,.5,-7:.5,.5,1 >out
+check "how far points are" [ "$(grep -c '^  receiver .*, 7 m from the point$' out) $(grep -c '^  emitter .*, 0 m from the point$' out)" = "1 1" ]
 check "a linked pair has one link" grep -q '"links": 1$' x.json
 
 # A pair below a link was never discussed, and is discussed all the same.
