@@ -96,4 +96,5 @@ def compute_factors(scene, tolerance, closure, progress, resume):
     lib.radGetExchangeReport(exchange, report)
     if state:
         state.remove()
-    return ViewFactors(matrix, np.concatenate(sums), scene.areas * scene._sides, as_namespace(report[0]), groups=scene.groups)
+    return ViewFactors(matrix, np.concatenate(sums), scene.areas * scene._sides, as_namespace(report[0]),
+                       groups=scene.groups)

@@ -192,13 +192,14 @@ def _materials(faces, materials, reflectance, exitance, two_sided):
     if materials is not None:
         return np.ascontiguousarray(materials, dtype=np.uint32), table
     # The engine would name a material, which the caller has not numbered.
+    most = np.finfo(np.float32).max
     for name, unit, wrong in (("reflectance", "", ~((table[:, :3] >= 0) & (table[:, :3] < 1))),
-                              ("exitance", " W/m2", ~((table[:, 3:6] >= 0) & np.isfinite(table[:, 3:6])))):
+                              ("exitance", " W/m2", ~((table[:, 3:6] >= 0) & (table[:, 3:6] <= most)))):
         if wrong.any():
             face, band = np.argwhere(wrong)[0]
             value = table[face, band + 3 * (name == "exitance")]
             raise InvalidInput(f"face {face} has {name} {value:.6g}{unit}; it must be 0 or more and " +
-                               ("below 1" if name == "reflectance" else "finite"))
+                               ("below 1" if name == "reflectance" else "finite, 3.4e38 at most"))
     table, number = np.unique(table, axis=0, return_inverse=True)
     return np.ascontiguousarray(number.reshape(-1), dtype=np.uint32), table
 

@@ -3,6 +3,7 @@
 The error is measured by particles that no part of the solution comes from (radMeasureError of radiosity.h).
 SPDX-License-Identifier: MIT
 """
+import numbers
 import os
 
 import numpy as np
@@ -40,7 +41,10 @@ class Solution:
         different ones are independent. surfaces: errors over the surfaces, .l2 and .p999, too.
         """
         options = ffi.new("struct RadMeasureOptions *")
-        options.rays, options.stream, options.surfaces = rays, stream, int(surfaces)
+        for name, count, bits in (("rays", rays, 64), ("stream", stream, 31)):
+            if not isinstance(count, numbers.Integral) or not 0 <= count < 2**bits:
+                raise InvalidInput(f"{name} is {count!r}; it must be a whole number, 0 or more, below 2^{bits}")
+        options.rays, options.stream, options.surfaces = int(rays), int(stream), int(surfaces)
         report = ffi.new("struct RadErrorReport *")
         self._device.call(lib.radMeasureError, self._handle, options, report, progress=progress)
         self.measured = as_namespace(report[0])

@@ -171,6 +171,8 @@ def test_lamp():
     # A coarse one is wrong, and the measurement says by how much.
     coarse = scene.solve("bf", parameters={"relative": 2}, basis="constant", correct=False, measure=False)
     assert coarse.error is None and coarse.measured is None and coarse.report.links < solution.report.links
+    raises(radiosity.InvalidInput, "rays is -5; it must be a whole number", coarse.measure_error, -5)
+    raises(radiosity.InvalidInput, "stream is 0.5; it must be a whole number", coarse.measure_error, 0, .5)
     coarse.measure_error(rays=400000)
     off = coarse.radiosity - truth
     assert np.abs(off).max() > .003
@@ -213,6 +215,7 @@ def test_errors():
             ("all of its 1 faces are degenerate", (CORNERS, [[0, 1, 1]]), {}),
             ("face 3 has reflectance 1;", (CORNERS, CUBE), {"reflectance": [0, 0, 0, 1, 0, 0]}),
             ("face 0 has exitance -1 W/m2", (CORNERS, CUBE), {"exitance": -1}),
+            ("face 0 has exitance 1e+300 W/m2; it must be 0 or more and finite, 3.4e38", (CORNERS, CUBE), {"exitance": 1e300}),
             ("material 1 has reflectance 2", (CORNERS, CUBE, [0, 1] * 3), {"reflectance": [0, 2]}),
             ("reflectance has shape (2,)", (CORNERS, CUBE), {"reflectance": [0, 0]}),
             ("materials must be", (CORNERS, CUBE, [0, 1]), {}),
