@@ -241,7 +241,7 @@ meshes far away | solver/output/far_away.c | s/return moved;/return 0;/ | solver
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
 shadows grow alike | runtime/engine/sight_rims.c | s/c->grow \* (i + 1)/0 * c->grow * (i + 1)/ | runtime/check_bodies
 short sides have directions | runtime/engine/sight_casting.c | s/SHORT = 1e-6/SHORT = 0/ | runtime/check_bodies
-shadows hide no others | runtime/engine/sight_rims.c | s/if ((s == own)/if (1 + (s == own)/ | runtime/check_bodies
+shadows hide no others | runtime/engine/sight_rims.c | s/beside += s != own/beside += 0 * (s != own)/ | runtime/check_bodies
 shadows are beside too soon | runtime/engine/sight_rims.c | s/APART = 1e-6/APART = -0.2/ | runtime/check_bodies
 nothing is seen from within | runtime/engine/sight_casting.c | s/body->foot ? REST_UNTOLD : REST_ALL/REST_ALL/ | runtime/check_bodies
 what no point of a group's rule sees | runtime/kernel/constants.h | s/SHADOW_UNSEEN 0.125/SHADOW_UNSEEN 0.0125/ | runtime/check_entries
