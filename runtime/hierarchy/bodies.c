@@ -14,6 +14,7 @@
 #include <string.h>
 #include "hierarchy/bodies.h"
 #include "hierarchy/body_feet.h"
+#include "hierarchy/body_parts.h"
 #include "hierarchy/places.h"
 #include "hierarchy/polygon.h"
 #include "hierarchy/reach.h"
@@ -33,36 +34,39 @@ static int is_free(const struct hierarchy *h, const struct element *e, int64_t m
 
 /* The faces that follow each other from one on, and what edges they leave. Returns 0 when there are
  * more than a body has. */
-static int follow(struct shell *s, const struct mates *mates, uint32_t from)
+static int follow(struct shell *s, uint32_t face[BODY_FACES], const struct mates *mates,
+                  uint32_t from)
 {
+    s->face = s->side = face;
     s->faces = 1;
     s->edges = 0;
-    s->face[0] = from;
+    face[0] = from;
     for (int at = 0; at < s->faces; at++) {
-        const struct element *e = &s->h->elements[s->face[at]];
+        const struct element *e = &s->h->elements[face[at]];
         for (int i = 0; i < e->vertices; i++) {
-            const int64_t mate = mates->of[s->face[at]][i];
+            const int64_t mate = mates->of[face[at]][i];
             int k = 0;
             if (is_free(s->h, e, mate)) {
                 s->edge[s->edges++] = (struct free_edge){
                     at, -1, e->vertex[i], e->vertex[i + 1 < e->vertices ? i + 1 : 0]};
                 continue;
             }
-            while (k < s->faces && s->face[k] != (uint32_t)(mate / 2))
+            while (k < s->faces && face[k] != (uint32_t)(mate / 2))
                 k++;
             if (k == BODY_FACES)
                 return 0;
             if (k == s->faces)
-                s->face[s->faces++] = (uint32_t)(mate / 2);
+                face[s->faces++] = (uint32_t)(mate / 2);
         }
     }
+    s->sides = s->faces;
     return 1;
 }
 
 static int is_convex(const struct shell *s)
 {
-    for (int i = 0; i < s->faces; i++) {
-        const struct element *e = &s->h->elements[s->face[i]];
+    for (int i = 0; i < s->sides; i++) {
+        const struct element *e = &s->h->elements[s->side[i]];
         if (!body_lids_supports(s, (const double(*)[3])e->vertex, e->vertices, e->normal))
             return 0;
     }
@@ -109,6 +113,16 @@ static int find_sides(const struct shell *s, uint32_t *first, int side[BODY_FACE
     return sides;
 }
 
+static void put_lids(struct body *body, struct bodies *b, const struct shell *s)
+{
+    for (int i = 0; i < s->lids; i++) {
+        struct body_lid *lid = &b->lids[body->lid + (uint32_t)i];
+        memcpy(lid->n, s->lid[i].normal, sizeof lid->n);
+        memcpy(lid->at, s->lid[i].corner[0], sizeof lid->at);
+    }
+    body->lids = (uint8_t)s->lids;
+}
+
 /* The sides, corners, edges and lids of a body, the last of the lists. Between faces of one side is
  * no edge. */
 static void measure(struct body *body, struct bodies *b, const struct shell *s,
@@ -150,14 +164,25 @@ static void measure(struct body *body, struct bodies *b, const struct shell *s,
             (struct body_edge){(uint8_t)from, (uint8_t)to, (uint8_t)(sides + joint->left),
                                (uint8_t)(sides + joint->right)};
     }
-    for (int i = 0; i < s->lids; i++) {
-        struct body_lid *lid = &b->lids[body->lid + (uint32_t)i];
-        memcpy(lid->n, s->lid[i].normal, sizeof lid->n);
-        memcpy(lid->at, s->lid[i].corner[0], sizeof lid->at);
-    }
+    put_lids(body, b, s);
     body->faces = (uint8_t)sides;
     body->corners = (uint8_t)count;
-    body->lids = (uint8_t)s->lids;
+}
+
+/* The same of a shell of parts, which does not stand in shafts: nobody asks for edges, and corners
+ * are any. */
+static void measure_parts(struct body *body, struct bodies *b, const struct shell *s)
+{
+    int count = 0;
+    memcpy(b->faces + body->face, s->side, (size_t)s->sides * sizeof *s->side);
+    for (int f = 0; f < s->faces; f++) {
+        const struct element *e = &s->h->elements[s->face[f]];
+        for (int i = 0; i < e->vertices && count < BODY_CORNERS; i++)
+            count += place_of(b->corners + body->corner, count, e->vertex[i], s->h->flat) == count;
+    }
+    put_lids(body, b, s);
+    body->faces = (uint8_t)s->sides;
+    body->corners = (uint8_t)count;
 }
 
 /* While they are found. */
@@ -198,28 +223,44 @@ static void mark(struct bodies *b, const struct hierarchy *h, uint32_t index, ui
         mark(b, h, e->child + c, body);
 }
 
+/* Is a shell the surface of a convex solid, with what it stands on? */
+static int is_solid(struct shell *s)
+{
+    return body_lids_find(s) && is_convex(s) && body_feet_shut(s);
+}
+
+/* A shell makes the next body. Returns 0, or -1 when out of memory. */
+static int add_body(struct making *m, const struct shell *s, const struct mates *mates,
+                    struct body_lining *lining)
+{
+    struct bodies *b = m->bodies;
+    if (make_room(m) < 0)
+        return -1;
+    if (mates)
+        measure(&m->next, b, s, mates);
+    else
+        measure_parts(&m->next, b, s);
+    for (int k = 0; k < s->faces; k++)
+        mark(b, s->h, s->face[k], m->count);
+    if (body_feet_add(b, s, mates, lining, m->count) < 0)
+        return -1;
+    const struct body made = b->body[m->count++] = m->next;
+    m->next = (struct body){.face = made.face + made.faces,
+                            .corner = made.corner + made.corners,
+                            .edge = made.edge + made.edges,
+                            .lid = made.lid + made.lids};
+    return 0;
+}
+
 /* Those of what h says is solid, and of no body yet. Returns 0, or -1 when out of memory. */
 static int find(struct making *m, const struct hierarchy *h, const struct mates *mates)
 {
-    struct bodies *b = m->bodies;
     struct shell shell = {.h = h};
-    for (uint32_t i = 0; i < h->built; i++) {
-        if (b->whose[i] || !h->solid[i] || !follow(&shell, mates, i) || !body_lids_find(&shell)
-            || !is_convex(&shell) || !body_feet_shut(&shell))
-            continue;
-        if (make_room(m) < 0)
+    uint32_t face[BODY_FACES];
+    for (uint32_t i = 0; i < h->built; i++)
+        if (!m->bodies->whose[i] && h->solid[i] && follow(&shell, face, mates, i)
+            && is_solid(&shell) && add_body(m, &shell, mates, NULL) < 0)
             return -1;
-        measure(&m->next, b, &shell, mates);
-        if (body_feet_add(b, &shell, mates, m->count) < 0)
-            return -1;
-        for (int k = 0; k < shell.faces; k++)
-            mark(b, h, shell.face[k], m->count);
-        const struct body made = b->body[m->count++] = m->next;
-        m->next = (struct body){.face = made.face + made.faces,
-                                .corner = made.corner + made.corners,
-                                .edge = made.edge + made.edges,
-                                .lid = made.lid + made.lids};
-    }
     return 0;
 }
 
@@ -271,6 +312,25 @@ static int find_by_polygons(struct making *m, const struct hierarchy *h)
     return status;
 }
 
+/* Bodies whose polygons are in groups with others' part by part (body_parts.h). */
+static int find_by_parts(struct making *m, const struct hierarchy *h)
+{
+    struct body_parts parts;
+    struct body_lining lining = {0};
+    struct shell shell = {.h = h};
+    int more = body_parts_open(&parts, h, m->bodies->whose);
+    if (more == 0 && parts.starts > 0)
+        more = body_lining_open(&lining, h);
+    if (more == 0)
+        more = body_parts_next(&parts, &shell);
+    for (; more > 0; more = more < 0 ? more : body_parts_next(&parts, &shell))
+        if (is_solid(&shell))
+            more = add_body(m, &shell, NULL, &lining) < 0 ? -1 : more;
+    body_parts_close(&parts);
+    body_lining_close(&lining);
+    return more;
+}
+
 int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates *mates)
 {
     struct making m = {.bodies = b};
@@ -284,7 +344,7 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
         return -1;
     for (uint32_t i = 0; i < h->built; i++)
         b->of[i] = h->solid[i] ? b->whose[i] : 0;
-    if (find_by_polygons(&m, h) < 0)
+    if (find_by_polygons(&m, h) < 0 || find_by_parts(&m, h) < 0)
         return -1;
     body_feet_sum(b, h);
     return 0;

@@ -12,38 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/body_feet.h"
+#include "hierarchy/body_rest.h"
 #include "hierarchy/lids.h"
 #include "hierarchy/reach.h"
 #include "kernel/constants.h"
 #include "util/array.h"
 
 static const uint32_t NO_FACE = UINT32_MAX;
-
-/* May faces below an element cover some of a lid? Not where they are elsewhere, or not in its
- * plane: of a group's that is known but for how far its faces reach off it. */
-static int is_near(const struct hierarchy *h, const struct element *e, const struct shell_lid *lid)
-{
-    const double(*v)[3] = (const double(*)[3])lid->corner,
-          most = e->children ? 2 * h->flat : h->flat;
-    double high = 0, low = 0, box[2][3];
-    if (e->vertices) {
-        polygon_reach(v, (uint32_t)lid->n, e->vertex[0], e->normal, &high, &low);
-        if (!(fabs(dot3(e->normal, lid->normal)) > GROUP_COSINE) || high > most || low < -most)
-            return 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        double from = v[0][k], to = from;
-        box[0][k] = e->vertices ? e->centre[k] - e->radius : e->vertex[0][k];
-        box[1][k] = e->vertices ? e->centre[k] + e->radius : e->vertex[1][k];
-        for (int i = 1; i < lid->n; i++) {
-            from = v[i][k] < from ? v[i][k] : from;
-            to = v[i][k] > to ? v[i][k] : to;
-        }
-        if (from > box[1][k] + most || to < box[0][k] - most)
-            return 0;
-    }
-    return 1;
-}
 
 /* What stands on others: a body of these, with that face of its own, or with a lid. */
 struct covering {
@@ -82,7 +57,7 @@ static int add_cover(const struct hierarchy *h, uint32_t index, uint32_t solid,
     const struct element *e = &h->elements[index];
     const double(*v)[3] = (const double(*)[3])lid->corner;
     struct lid over;
-    if (!is_near(h, e, lid))
+    if (!body_rest_near(h, e, lid))
         return 0;
     if (h->solid[index])
         solid = index;
@@ -132,63 +107,6 @@ static void add_share(struct bodies *b, const struct hierarchy *h, uint32_t inde
         add_share(b, h, e->child + c, share);
 }
 
-/* Is all of an element in the solid, or on its surface? */
-static int is_within(const struct shell *s, const struct element *e)
-{
-    for (int side = 0; side < s->faces + s->lids; side++) {
-        const struct element *f = side < s->faces ? &s->h->elements[s->face[side]] : NULL;
-        const struct shell_lid *lid = f ? NULL : &s->lid[side - s->faces];
-        double high = 0, low = 0;
-        polygon_reach((const double(*)[3])e->vertex, e->vertices, f ? f->vertex[0] : lid->corner[0],
-                      f ? f->normal : lid->normal, &high, &low);
-        if (high > s->h->flat)
-            return 0;
-    }
-    return 1;
-}
-
-/* faces that line a hollow solid, at the most: of more it is taken to be hollow; chosen */
-enum { LINING = 256 };
-
-static int is_own(const struct shell *s, uint32_t index)
-{
-    int own = 0;
-    for (int k = 0; k < s->faces; k++)
-        own |= s->face[k] == index;
-    return own;
-}
-
-/* Is the solid hollow there, as a house of outer and inner walls in the same planes? Then those
- * that the face goes on to across edges, from one to the next, are all in the solid, or on its
- * sides, and not on one alone. Walls of a room in whose corner it stands go on outside of it. */
-static int is_lining(const struct shell *s, const struct mates *mates, uint32_t solid)
-{
-    uint32_t list[LINING] = {solid};
-    int count = 1, bends = 0;
-    for (int at = 0; at < count; at++) {
-        const struct element *e = &s->h->elements[list[at]];
-        for (int i = 0; i < e->vertices; i++) {
-            const int64_t across = mates->of[list[at]][i];
-            const uint32_t mate = (uint32_t)(across / 2);
-            double high = 0, low = 0;
-            int k = 0;
-            if (across == NO_MATE || across % 2 || is_own(s, mate))
-                continue;
-            if (!is_within(s, &s->h->elements[mate]))
-                return 0;
-            element_reach(e, &s->h->elements[mate], &high, &low);
-            bends |= high > s->h->flat || low < -s->h->flat;
-            while (k < count && list[k] != mate)
-                k++;
-            if (k == LINING)
-                return 1;
-            list[k] = mate;
-            count += k == count;
-        }
-    }
-    return bends;
-}
-
 /* Is it open where it stands: a pipe from floor to ceiling, a box without two of its sides in a
  * corner, or anything of faces that have another side? Then light gets to what is behind its lids.
  */
@@ -202,7 +120,16 @@ static int is_open(const struct shell *s)
     return s->lids > 1;
 }
 
-int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *mates, uint32_t body)
+/* Does a face that the body stands on line it? Returns 1 or 0, or -1 when out of memory. */
+static int is_lining(const struct bodies *b, const struct shell *s, const struct mates *mates,
+                     struct body_lining *lining, const struct body_foot *foot)
+{
+    return mates ? body_lining_by_mates(s, mates, foot->solid)
+                 : body_lining_by_parts(lining, s, b->whose, foot->body, foot->on);
+}
+
+int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *mates,
+                  struct body_lining *lining, uint32_t body)
 {
     const size_t before = b->feet_count;
     double cover[2] = {0, 0};
@@ -222,9 +149,12 @@ int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *m
     }
     const size_t all = b->feet_count;
     b->feet_count = before;
-    for (size_t i = before; i < all; i++)
-        if (!is_lining(s, mates, b->feet[i].solid))
+    for (size_t i = before; i < all && status == 0; i++) {
+        const int lines = is_lining(b, s, mates, lining, &b->feet[i]);
+        status = lines < 0 ? -1 : 0;
+        if (!lines)
             b->feet[b->feet_count++] = b->feet[i];
+    }
     return status;
 }
 

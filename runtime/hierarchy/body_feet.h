@@ -4,14 +4,15 @@
 #define BODY_FEET_H
 
 #include "hierarchy/body_lids.h"
+#include "hierarchy/body_lining.h"
 
 /* Are all lids covered, but for what is narrower than faces may reach off their planes? */
 int body_feet_shut(const struct shell *shell);
 
-/* Add what the next body stands on, with its lids and with faces of its own. Returns 0, or -1 when
- * out of memory. */
+/* Add what the next body stands on, with its lids and with faces of its own, which are marked as
+ * its: faces without children, where there are no mates. Returns 0, or -1 when out of memory. */
 int body_feet_add(struct bodies *bodies, const struct shell *shell, const struct mates *mates,
-                  uint32_t body);
+                  struct body_lining *lining, uint32_t body);
 
 /* Once all are there: how much of each face is covered; the list is put in order. */
 void body_feet_sum(struct bodies *bodies, const struct hierarchy *h);

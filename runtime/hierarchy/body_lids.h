@@ -18,10 +18,11 @@ struct lid_joint {
     int left, right;
 };
 
+/* Sides are faces, of each plane one at least, and all if they are few. */
 struct shell {
     const struct hierarchy *h;
-    int faces, edges, lids, joints;
-    uint32_t face[BODY_FACES];
+    int faces, sides, edges, lids, joints;
+    const uint32_t *face, *side; /* [faces], [sides]: borrowed */
     struct free_edge edge[BODY_CORNERS];
     struct shell_lid {
         double corner[BODY_CORNERS][3], normal[3], area, around;
