@@ -97,7 +97,7 @@ static int look_around(struct body_parts *p, struct shell *s, int at)
             }
             if (p->met[face] == AT_HAND)
                 continue;
-            if (p->met[face] || p->whose[face])
+            if (p->met[face])
                 return 0;
             p->met[face] = AT_HAND;
             if (append(&p->face, (uint32_t)s->faces++, &p->room[1], face) < 0)
