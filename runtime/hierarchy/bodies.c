@@ -190,6 +190,7 @@ struct making {
     struct bodies *bodies;
     uint32_t count;
     struct body next; /* of the lists, empty yet */
+    struct body_lining lining;
     size_t room[5];
 };
 
@@ -230,8 +231,7 @@ static int is_solid(struct shell *s)
 }
 
 /* A shell makes the next body. Returns 0, or -1 when out of memory. */
-static int add_body(struct making *m, const struct shell *s, const struct mates *mates,
-                    struct body_lining *lining)
+static int add_body(struct making *m, const struct shell *s, const struct mates *mates)
 {
     struct bodies *b = m->bodies;
     if (make_room(m) < 0)
@@ -242,7 +242,7 @@ static int add_body(struct making *m, const struct shell *s, const struct mates 
         measure_parts(&m->next, b, s);
     for (int k = 0; k < s->faces; k++)
         mark(b, s->h, s->face[k], m->count);
-    if (body_feet_add(b, s, mates, lining, m->count) < 0)
+    if (body_feet_add(b, s, &m->lining, m->count) < 0)
         return -1;
     const struct body made = b->body[m->count++] = m->next;
     m->next = (struct body){.face = made.face + made.faces,
@@ -259,7 +259,7 @@ static int find(struct making *m, const struct hierarchy *h, const struct mates 
     uint32_t face[BODY_FACES];
     for (uint32_t i = 0; i < h->built; i++)
         if (!m->bodies->whose[i] && h->solid[i] && follow(&shell, face, mates, i)
-            && is_solid(&shell) && add_body(m, &shell, mates, NULL) < 0)
+            && is_solid(&shell) && add_body(m, &shell, mates) < 0)
             return -1;
     return 0;
 }
@@ -316,19 +316,25 @@ static int find_by_polygons(struct making *m, const struct hierarchy *h)
 static int find_by_parts(struct making *m, const struct hierarchy *h)
 {
     struct body_parts parts;
-    struct body_lining lining = {0};
     struct shell shell = {.h = h};
     int more = body_parts_open(&parts, h, m->bodies->whose);
-    if (more == 0 && parts.starts > 0)
-        more = body_lining_open(&lining, h);
     if (more == 0)
         more = body_parts_next(&parts, &shell);
-    for (; more > 0; more = more < 0 ? more : body_parts_next(&parts, &shell))
-        if (is_solid(&shell))
-            more = add_body(m, &shell, NULL, &lining) < 0 ? -1 : more;
+    while (more > 0)
+        more = is_solid(&shell) && add_body(m, &shell, NULL) < 0 ? -1
+                                                                 : body_parts_next(&parts, &shell);
     body_parts_close(&parts);
-    body_lining_close(&lining);
     return more;
+}
+
+static int find_all(struct making *m, const struct hierarchy *h, const struct mates *mates)
+{
+    struct bodies *b = m->bodies;
+    if (body_lining_open(&m->lining, h) < 0 || find(m, h, mates) < 0)
+        return -1;
+    for (uint32_t i = 0; i < h->built; i++)
+        b->of[i] = h->solid[i] ? b->whose[i] : 0;
+    return find_by_polygons(m, h) < 0 ? -1 : find_by_parts(m, h);
 }
 
 int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates *mates)
@@ -340,14 +346,12 @@ int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates 
     b->whose = calloc(elements, sizeof *b->whose);
     b->covered = calloc(elements, sizeof *b->covered);
     b->shut = calloc(elements, sizeof *b->shut);
-    if (!b->of || !b->whose || !b->covered || !b->shut || find(&m, h, mates) < 0)
-        return -1;
-    for (uint32_t i = 0; i < h->built; i++)
-        b->of[i] = h->solid[i] ? b->whose[i] : 0;
-    if (find_by_polygons(&m, h) < 0 || find_by_parts(&m, h) < 0)
-        return -1;
-    body_feet_sum(b, h);
-    return 0;
+    const int ready = b->of && b->whose && b->covered && b->shut,
+              status = ready ? find_all(&m, h, mates) : -1;
+    body_lining_close(&m.lining);
+    if (status == 0)
+        body_feet_sum(b, h);
+    return status;
 }
 
 void bodies_close(struct bodies *b)

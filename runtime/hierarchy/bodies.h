@@ -31,10 +31,10 @@ struct body {
     uint8_t faces, corners, edges, lids;
 };
 
-/* A body stands on the front of a face, an element that is part of what stands in shafts, on so
- * much of it (m2); with a face of its own, UINT32_MAX where it has none there. */
+/* A body stands on the front of a face, an element, on so much of it (m2); with a face of its own,
+ * UINT32_MAX where it has none there. */
 struct body_foot {
-    uint32_t on, solid, body, face;
+    uint32_t on, body, face;
     double area;
 };
 

@@ -28,12 +28,12 @@ struct covering {
 
 /* The body stands on an element's front, on so much of it (m2). Returns 0, or -1 when out of
  * memory. */
-static int add_foot(const struct covering *by, uint32_t on, uint32_t solid, double area)
+static int add_foot(const struct covering *by, uint32_t on, double area)
 {
     struct bodies *b = by->standing;
     if (array_reserve(&b->feet, b->feet_count + 1, &b->feet_room, sizeof *b->feet) < 0)
         return -1;
-    b->feet[b->feet_count++] = (struct body_foot){on, solid, by->body, by->face, area};
+    b->feet[b->feet_count++] = (struct body_foot){on, by->body, by->face, area};
     return 0;
 }
 
@@ -48,22 +48,20 @@ static int is_other_side(const struct hierarchy *h, uint32_t index, uint32_t sid
     return one.from >= all.from && one.to <= all.to;
 }
 
-/* What faces below an element, which is part of `solid`, cover of a lid: those that look the same
+/* What faces below an element cover of a lid: those that look the same
  * way as it, and the others (m2). Faces that look one way do not lie on each other (overlaps.h).
  * Returns 0, or -1 when out of memory. */
-static int add_cover(const struct hierarchy *h, uint32_t index, uint32_t solid,
-                     const struct shell_lid *lid, double cover[2], const struct covering *by)
+static int add_cover(const struct hierarchy *h, uint32_t index, const struct shell_lid *lid,
+                     double cover[2], const struct covering *by)
 {
     const struct element *e = &h->elements[index];
     const double(*v)[3] = (const double(*)[3])lid->corner;
     struct lid over;
     if (!body_rest_near(h, e, lid))
         return 0;
-    if (h->solid[index])
-        solid = index;
     if (e->children && (by->standing || !h->solid[index])) {
         for (uint32_t c = 0; c < e->children; c++)
-            if (add_cover(h, e->child + c, solid, lid, cover, by) < 0)
+            if (add_cover(h, e->child + c, lid, cover, by) < 0)
                 return -1;
         return 0;
     }
@@ -78,7 +76,7 @@ static int add_cover(const struct hierarchy *h, uint32_t index, uint32_t solid,
     }
     cover[same] += sum;
     return by->standing && !same && sum > 0 && !is_other_side(h, index, by->face)
-               ? add_foot(by, index, solid, sum)
+               ? add_foot(by, index, sum)
                : 0;
 }
 
@@ -88,7 +86,7 @@ int body_feet_shut(const struct shell *s)
         const struct shell_lid *lid = &s->lid[i];
         const double most = lid->area - s->h->flat * lid->around;
         double cover[2] = {0, 0};
-        (void)add_cover(s->h, 0, 0, lid, cover, &(struct covering){0});
+        (void)add_cover(s->h, 0, lid, cover, &(struct covering){0});
         if (!(cover[0] >= most || cover[1] >= most))
             return 0;
     }
@@ -120,16 +118,8 @@ static int is_open(const struct shell *s)
     return s->lids > 1;
 }
 
-/* Does a face that the body stands on line it? Returns 1 or 0, or -1 when out of memory. */
-static int is_lining(const struct bodies *b, const struct shell *s, const struct mates *mates,
-                     struct body_lining *lining, const struct body_foot *foot)
-{
-    return mates ? body_lining_by_mates(s, mates, foot->solid)
-                 : body_lining_by_parts(lining, s, b->whose, foot->body, foot->on);
-}
-
-int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *mates,
-                  struct body_lining *lining, uint32_t body)
+int body_feet_add(struct bodies *b, const struct shell *s, struct body_lining *lining,
+                  uint32_t body)
 {
     const size_t before = b->feet_count;
     double cover[2] = {0, 0};
@@ -137,7 +127,7 @@ int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *m
     const int open = is_open(s);
     for (int i = 0; i < s->lids && !open && status == 0; i++) {
         const struct covering by = {b, body, NO_FACE};
-        status = add_cover(s->h, 0, 0, &s->lid[i], cover, &by);
+        status = add_cover(s->h, 0, &s->lid[i], cover, &by);
     }
     for (int i = 0; i < s->faces && status == 0; i++) {
         const struct element *e = &s->h->elements[s->face[i]];
@@ -145,12 +135,12 @@ int body_feet_add(struct bodies *b, const struct shell *s, const struct mates *m
         struct shell_lid own = {.n = e->vertices};
         memcpy(own.corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
         memcpy(own.normal, e->normal, sizeof own.normal);
-        status = add_cover(s->h, 0, 0, &own, cover, &by);
+        status = add_cover(s->h, 0, &own, cover, &by);
     }
     const size_t all = b->feet_count;
     b->feet_count = before;
     for (size_t i = before; i < all && status == 0; i++) {
-        const int lines = is_lining(b, s, mates, lining, &b->feet[i]);
+        const int lines = body_lining_is(lining, s, b->whose, body, b->feet[i].on);
         status = lines < 0 ? -1 : 0;
         if (!lines)
             b->feet[b->feet_count++] = b->feet[i];

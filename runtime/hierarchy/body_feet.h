@@ -10,9 +10,9 @@
 int body_feet_shut(const struct shell *shell);
 
 /* Add what the next body stands on, with its lids and with faces of its own, which are marked as
- * its: faces without children, where there are no mates. Returns 0, or -1 when out of memory. */
-int body_feet_add(struct bodies *bodies, const struct shell *shell, const struct mates *mates,
-                  struct body_lining *lining, uint32_t body);
+ * its. Returns 0, or -1 when out of memory. */
+int body_feet_add(struct bodies *bodies, const struct shell *shell, struct body_lining *lining,
+                  uint32_t body);
 
 /* Once all are there: how much of each face is covered; the list is put in order. */
 void body_feet_sum(struct bodies *bodies, const struct hierarchy *h);

@@ -30,43 +30,6 @@ static int bends(const struct hierarchy *h, const struct element *e, const struc
     return high > h->flat || low < -h->flat;
 }
 
-/* faces that line a hollow solid, at the most: of more it is taken to be hollow; chosen */
-enum { LINING = 256 };
-
-static int is_own(const struct shell *s, uint32_t index)
-{
-    int own = 0;
-    for (int k = 0; k < s->faces; k++)
-        own |= s->face[k] == index;
-    return own;
-}
-
-int body_lining_by_mates(const struct shell *s, const struct mates *mates, uint32_t solid)
-{
-    uint32_t list[LINING] = {solid};
-    int count = 1, bent = 0;
-    for (int at = 0; at < count; at++) {
-        const struct element *e = &s->h->elements[list[at]];
-        for (int i = 0; i < e->vertices; i++) {
-            const int64_t across = mates->of[list[at]][i];
-            const uint32_t mate = (uint32_t)(across / 2);
-            int k = 0;
-            if (across == NO_MATE || across % 2 || is_own(s, mate))
-                continue;
-            if (!is_within(s, &s->h->elements[mate]))
-                return 0;
-            bent |= bends(s->h, e, &s->h->elements[mate]);
-            while (k < count && list[k] != mate)
-                k++;
-            if (k == LINING)
-                return 1;
-            list[k] = mate;
-            count += k == count;
-        }
-    }
-    return bent;
-}
-
 /* What is known of a face: nothing, or these, from 3 times the body's number on. */
 enum { AT_HAND = 1, LINES_NOT, LINES, STATES = LINES };
 
@@ -108,8 +71,8 @@ static int go_on(struct lines *l, uint32_t face, int side)
     return 0;
 }
 
-int body_lining_by_parts(struct body_lining *lining, const struct shell *s, const uint32_t *whose,
-                         uint32_t body, uint32_t face)
+int body_lining_is(struct body_lining *lining, const struct shell *s, const uint32_t *whose,
+                   uint32_t body, uint32_t face)
 {
     struct lines l = {lining, s, whose, body, 0, 1, 0};
     if (lining->known[face] > STATES * body)
