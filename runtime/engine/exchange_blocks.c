@@ -59,8 +59,9 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
     if (exchange_link_proved(link) && !r->group && !s->group) {
         const double e = r->area * link_factor(pair, link), least = fmin(r->area, s->area);
-        const int covered = p->covered[pair->rows.from] || p->covered[pair->columns.from];
-        *out = covered ? 0 : fmin(e, least);
+        const int dark = p->covered[pair->rows.from] || p->covered[pair->columns.from]
+                         || clear_meet(pair->tree, r, s);
+        *out = dark ? 0 : fmin(e, least);
         return 0;
     }
     if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */

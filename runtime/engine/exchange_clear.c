@@ -383,6 +383,11 @@ static double near_area(const struct exchange_faces *p, const struct element *a,
     return a->area * polygon_factor_within(a, b, 1, tolerance * SIGHT_FLOOR / CLEAR_REST);
 }
 
+int clear_meet(const struct exchange_tree *t, const struct element *a, const struct element *b)
+{
+    return bodies_meet(&t->bodies, &t->h, t->h.face_element[a->face], t->h.face_element[b->face]);
+}
+
 /* The line of the face at place i, `line` with the shifts of the faces across. */
 static void make_line(const struct exchange_faces *p, const struct exchange_pair *pair,
                       double tolerance, uint32_t i, int column, struct line *line, double *out)
@@ -416,7 +421,7 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
             e = a->area * b->area
                 * rule_kernel(column ? across : &rule, r->normal, column ? &rule : across, m);
         } else {
-            e = near_area(p, a, b, tolerance, doubt < INFINITY);
+            e = clear_meet(pair->tree, a, b) ? 0 : near_area(p, a, b, tolerance, doubt < INFINITY);
         }
         out[j - range.from] = e > 0 ? fmin(e, fmin(a->area, b->area)) : 0;
     }

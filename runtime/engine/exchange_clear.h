@@ -34,6 +34,9 @@ struct exchange_pair {
     struct face_range rows, columns;
 };
 
+/* Do two faces lie on each other, one of a solid's (bodies_meet)? */
+int clear_meet(const struct exchange_tree *tree, const struct element *a, const struct element *b);
+
 /* out[rows][columns]: A_i F_ij (m2) if nothing stands between the two groups, none above the
  * smaller area; within `tolerance` of itself, or of SIGHT_FLOOR of the smaller area. */
 void clear_block(const struct exchange_faces *faces, const struct exchange_pair *pair,

@@ -62,7 +62,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     struct shaft shaft;
     *error = 0;
     if (bodies_cover(&t->bodies, &t->h, on_r) || bodies_cover(&t->bodies, &t->h, on_s)
-        || !shaft_open(&shaft, r, s, host))
+        || bodies_meet(&t->bodies, &t->h, on_r, on_s) || !shaft_open(&shaft, r, s, host))
         return 0;
     int count = among ? sight_list_near(among, t, &shaft, own)
                       : host->candidates(host, &shaft, SIGHT_LIST, own);

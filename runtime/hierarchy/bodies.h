@@ -67,6 +67,11 @@ int bodies_hold(const struct bodies *bodies, const struct hierarchy *h, uint32_t
 int bodies_join(const struct bodies *bodies, const struct hierarchy *h, uint32_t element,
                 const struct element *other, double near);
 
+/* Is one of two faces of a body that stands on the other, or that this lines? They lie on each
+ * other, and what rounding puts between them is no gap. */
+int bodies_meet(const struct bodies *bodies, const struct hierarchy *h, uint32_t one,
+                uint32_t other);
+
 /* Do faces of bodies lie on all of its front, but for rounding? */
 static inline int bodies_cover(const struct bodies *bodies, const struct hierarchy *h,
                                uint32_t element)

@@ -142,8 +142,8 @@ int body_feet_add(struct bodies *b, const struct shell *s, struct body_lining *l
     for (size_t i = before; i < all && status == 0; i++) {
         const int lines = body_lining_is(lining, s, b->whose, body, b->feet[i].on);
         status = lines < 0 ? -1 : 0;
-        if (!lines)
-            b->feet[b->feet_count++] = b->feet[i];
+        b->feet[b->feet_count] = b->feet[i];
+        b->feet[b->feet_count++].area *= lines > 0 ? 0 : 1;
     }
     return status;
 }
@@ -212,6 +212,12 @@ static int is_joined(const struct bodies *b, const struct hierarchy *h, const st
     return joined;
 }
 
+/* Does it stand there, with a face? */
+static int stands(const struct body_foot *foot)
+{
+    return foot->face != NO_FACE && foot->area > 0;
+}
+
 /* The first of the bodies that stand on an element, or where it would be. */
 static size_t first_foot(const struct bodies *b, uint32_t element)
 {
@@ -230,7 +236,7 @@ int bodies_hold(const struct bodies *b, const struct hierarchy *h, uint32_t elem
                 const double p[3])
 {
     for (size_t i = first_foot(b, element); i < b->feet_count && b->feet[i].on == element; i++)
-        if (b->feet[i].face != NO_FACE && holds(b, h, &b->body[b->feet[i].body], p))
+        if (stands(&b->feet[i]) && holds(b, h, &b->body[b->feet[i].body], p))
             return 1;
     return 0;
 }
@@ -239,7 +245,27 @@ int bodies_join(const struct bodies *b, const struct hierarchy *h, uint32_t elem
                 const struct element *other, double near)
 {
     for (size_t i = first_foot(b, element); i < b->feet_count && b->feet[i].on == element; i++)
-        if (b->feet[i].face != NO_FACE && is_joined(b, h, &b->body[b->feet[i].body], other, near))
+        if (stands(&b->feet[i]) && is_joined(b, h, &b->body[b->feet[i].body], other, near))
             return 1;
     return 0;
+}
+
+static int is_part(const struct hierarchy *h, uint32_t face, uint32_t of)
+{
+    return h->range[of].from <= h->range[face].from && h->range[face].to <= h->range[of].to;
+}
+
+/* Does a face that is part of another lie on an element? */
+static int lies_on(const struct bodies *b, const struct hierarchy *h, uint32_t face, uint32_t on)
+{
+    for (size_t i = first_foot(b, on); i < b->feet_count && b->feet[i].on == on; i++)
+        if (b->feet[i].face != NO_FACE && is_part(h, face, b->feet[i].face))
+            return 1;
+    return 0;
+}
+
+int bodies_meet(const struct bodies *b, const struct hierarchy *h, uint32_t one, uint32_t other)
+{
+    return b->feet_count > 0 && dot3(h->elements[one].normal, h->elements[other].normal) < 0
+           && (lies_on(b, h, one, other) || lies_on(b, h, other, one));
 }

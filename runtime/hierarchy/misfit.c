@@ -52,7 +52,7 @@ static double of_feet(const struct hierarchy *h, const struct bodies *b)
     for (size_t i = 0; i < b->feet_count; i++) {
         const struct body *body = &b->body[b->feet[i].body];
         const struct element *on = &h->elements[b->feet[i].on];
-        for (uint32_t k = 0; k < body->corners; k++)
+        for (uint32_t k = 0; k < body->corners && b->feet[i].area > 0; k++)
             most = larger(h, most,
                           fabs(height3(b->corners[body->corner + k], on->vertex[0], on->normal)));
     }
