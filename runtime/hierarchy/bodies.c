@@ -5,8 +5,9 @@
  * Where other faces cover such sides wholly they are shut by lids (body_lids.h); what goes in there
  * meets them, so lids change nothing outside. Where no corner of a closed shell lies in front of
  * any of its planes, it is the surface of a convex solid, its fronts outside. So what it hides from
- * a point is one convex polygon, whatever its faces are. Invariant: a face is of one body at most;
- * a body has no free edge but its lids', no bent face and no face whose front looks inside.
+ * a point is one convex polygon, whatever its faces are. Invariant: a body
+ * has no free edge but its lids', no bent face and no face whose front looks inside; a face is told
+ * to be of one body at most, also where a stack is a solid and its boxes are.
  * [a closed surface that each of its planes supports is its hull's; derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -224,10 +225,26 @@ static void mark(struct bodies *b, const struct hierarchy *h, uint32_t index, ui
         mark(b, h, e->child + c, body);
 }
 
+/* Does a lid lie in the plane of a side? Then it stands for what there is of that side, in parts
+ * that are not of the shell. */
+static int is_patched(const struct shell *s)
+{
+    for (int i = 0; i < s->lids; i++)
+        for (int k = 0; k < s->sides; k++) {
+            const struct element *e = &s->h->elements[s->side[k]];
+            double high = 0, low = 0;
+            polygon_reach((const double(*)[3])s->lid[i].corner, (uint32_t)s->lid[i].n, e->vertex[0],
+                          e->normal, &high, &low);
+            if (low >= -s->h->flat && dot3(e->normal, s->lid[i].normal) > 0)
+                return 1;
+        }
+    return 0;
+}
+
 /* Is a shell the surface of a convex solid, with what it stands on? */
 static int is_solid(struct shell *s)
 {
-    return body_lids_find(s) && is_convex(s) && body_feet_shut(s);
+    return body_lids_find(s) && !is_patched(s) && is_convex(s) && body_feet_shut(s);
 }
 
 /* A shell makes the next body. Returns 0, or -1 when out of memory. */
@@ -241,7 +258,8 @@ static int add_body(struct making *m, const struct shell *s, const struct mates 
     else
         measure_parts(&m->next, b, s);
     for (int k = 0; k < s->faces; k++)
-        mark(b, s->h, s->face[k], m->count);
+        if (!b->whose[s->face[k]])
+            mark(b, s->h, s->face[k], m->count);
     if (body_feet_add(b, s, &m->lining, m->count) < 0)
         return -1;
     const struct body made = b->body[m->count++] = m->next;

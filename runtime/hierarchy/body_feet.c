@@ -131,6 +131,8 @@ int body_feet_add(struct bodies *b, const struct shell *s, struct body_lining *l
     }
     for (int i = 0; i < s->faces && status == 0; i++) {
         const struct element *e = &s->h->elements[s->face[i]];
+        if (b->whose[s->face[i]] != body + 1) /* it stands there with another body */
+            continue;
         const struct covering by = {b, body, s->face[i]};
         struct shell_lid own = {.n = e->vertices};
         memcpy(own.corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);

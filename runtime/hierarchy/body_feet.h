@@ -9,8 +9,8 @@
 /* Are all lids covered, but for what is narrower than faces may reach off their planes? */
 int body_feet_shut(const struct shell *shell);
 
-/* Add what the next body stands on, with its lids and with faces of its own, which are marked as
- * its. Returns 0, or -1 when out of memory. */
+/* Add what the next body stands on, with its lids and with those faces of its own that are
+ * marked as its. Returns 0, or -1 when out of memory. */
 int body_feet_add(struct bodies *bodies, const struct shell *shell, struct body_lining *lining,
                   uint32_t body);
 

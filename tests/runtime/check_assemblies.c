@@ -2,7 +2,7 @@
  * corners, against walls of tiles, and along edges.
  *
  * Boxes and tiles end at the lines of a grid, so what is bare of each face is counted by its cells,
- * and that is what its row sums to.
+ * and that is what its row sums to; of a side that is meshed, what its rows sum to in the mean.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -26,6 +26,34 @@ static int is_free(int x, int y, int z)
 {
     return x >= 0 && x < SIDE && y >= 0 && y < SIDE && z >= 0 && z < SIDE
            && cells[x][y][z] == NOBODY;
+}
+
+/* Sides that are meshed, each in its own way: where their faces end, and what is bare of each. */
+static struct {
+    uint64_t chance; /* 0: none is meshed */
+    uint32_t count, end[FACES];
+    double bare[FACES];
+} meshed;
+
+/* A rectangle in one or two halves, each of them two triangles along either diagonal. */
+static void triangles(const double at[3], const double u[3], const double v[3])
+{
+    static const int corners[2][6] = {{0, 1, 2, 0, 2, 3}, {0, 1, 3, 1, 2, 3}};
+    const int halves = chance(&meshed.chance) < 0.5, along_u = chance(&meshed.chance) < 0.5;
+    const double middle = 0.3 + 0.4 * chance(&meshed.chance);
+    for (int half = 0; half <= halves; half++) {
+        const double from = half ? middle : 0, to = halves && !half ? middle : 1,
+                     x[2] = {along_u ? from : 0, along_u ? to : 1},
+                     y[2] = {along_u ? 0 : from, along_u ? 1 : to};
+        const int *corner_of = corners[chance(&meshed.chance) < 0.5];
+        for (int i = 0; i < 6; i++) {
+            const double a = x[corner_of[i] == 1 || corner_of[i] == 2], b = y[corner_of[i] / 2];
+            corner(at[0] + a * u[0] + b * v[0], at[1] + a * u[1] + b * v[1],
+                   at[2] + a * u[2] + b * v[2]);
+            if (i % 3 == 2)
+                end_face(3);
+        }
+    }
 }
 
 /* A side of a block across an axis, with its front outside, or inside of a room. */
@@ -53,7 +81,13 @@ static void side_of(const struct block *b, int axis, int up, int inside, int tur
         p[k][0] = cos(TURN) * x - sin(TURN) * y;
         p[k][1] = sin(TURN) * x + cos(TURN) * y;
     }
-    rectangle(p[0], p[1], p[2]);
+    if (!meshed.chance) {
+        rectangle(p[0], p[1], p[2]);
+        return;
+    }
+    meshed.bare[meshed.count] = free_ / all;
+    triangles(p[0], p[1], p[2]);
+    meshed.end[meshed.count++] = scene.faces;
 }
 
 /* Blocks of up to so many cells a side, where there is room; walls of tiles x tiles each. */
@@ -139,6 +173,33 @@ START_TEST(test_rounded)
 }
 END_TEST
 
+/* Blocks whose sides are triangles that no neighbour has: what is bare of a side is what its rows
+ * come to, and none comes to more than 1. */
+START_TEST(test_meshed)
+{
+    static double f[FACES * FACES], area[FACES];
+    uint32_t face = 0;
+    meshed.chance = (uint64_t)_i + 1;
+    meshed.count = 0;
+    furnish((uint64_t)_i, 2 + _i % 2, 1, _i % 4 / 2);
+    meshed.chance = 0;
+    if (_i % 3 == 2)
+        round_corners(0.4 + 0.02 * _i, (uint64_t)_i);
+    factors(scene.faces, TOLERANCE, f, area);
+    for (uint32_t side = 0; side < meshed.count; side++) {
+        double all = 0, sums = 0;
+        for (; face < meshed.end[side]; face++) {
+            const double sum = row_sum(f, face);
+            ck_assert_msg(sum <= 1 + 3 * TOLERANCE, "row %u sums to %.5f", face, sum);
+            all += area[face];
+            sums += area[face] * sum;
+        }
+        ck_assert_msg(fabs(sums / all - meshed.bare[side]) <= 3 * TOLERANCE,
+                      "side %u sums to %.5f, not %.5f", side, sums / all, meshed.bare[side]);
+    }
+}
+END_TEST
+
 /* What stands far outside makes nothing touch that does not. */
 START_TEST(test_far)
 {
@@ -158,6 +219,7 @@ int main(void)
     tcase_add_loop_test(t, test_blocks, 0, under_sanitizers() ? 6 : 2 * ROOMS);
     tcase_add_loop_test(t, test_cubes, 0, under_sanitizers() ? 4 : ROOMS);
     tcase_add_loop_test(t, test_rounded, 0, under_sanitizers() ? 4 : ROOMS);
+    tcase_add_loop_test(t, test_meshed, 0, under_sanitizers() ? 2 : ROOMS);
     tcase_add_loop_test(t, test_far, 0, under_sanitizers() ? 2 : ROOMS);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;

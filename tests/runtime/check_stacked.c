@@ -148,6 +148,65 @@ START_TEST(test_house)
 }
 END_TEST
 
+/* What is a rectangle from there on, as four triangles around its middle; turned, and rounded as
+ * files of nine digits are. */
+static void mesh_from(uint32_t first)
+{
+    const uint32_t last = scene.faces;
+    uint32_t from = 0;
+    for (uint32_t i = 0; i < first; i++)
+        from += scene.sizes[i];
+    scene.faces = first;
+    scene.indices_used = from;
+    static double kept[3 * POSITIONS];
+    memcpy(kept, scene.positions, sizeof kept);
+    scene.positions_used = from;
+    for (uint32_t i = first; i < last; i++) {
+        const double *v = &kept[(size_t)3 * (from + 4 * (i - first))];
+        for (int k = 0; k < 4; k++) {
+            const double *a = v + (size_t)3 * (size_t)k, *b = v + (size_t)3 * (size_t)((k + 1) % 4);
+            corner(a[0], a[1], a[2]);
+            corner(b[0], b[1], b[2]);
+            corner((v[0] + v[6]) / 2, (v[1] + v[7]) / 2, (v[2] + v[8]) / 2);
+            end_face(3);
+        }
+    }
+}
+
+static void turn_and_round(void)
+{
+    static const double c = 0.8, s = 0.6, digits = 1e8;
+    for (uint32_t i = 0; i < scene.positions_used; i++) {
+        double *p = &scene.positions[(size_t)3 * i];
+        const double x = c * p[0] - s * p[1], y = s * p[0] + c * p[1],
+                     turned[3] = {x, c * y - s * p[2], s * y + c * p[2]};
+        for (int k = 0; k < 3; k++)
+            p[k] = round((turned[k] / 3 + 0.1) * digits) / digits;
+    }
+}
+
+/* The same house, whose inner walls are triangles and its outer ones are not, or both are: what
+ * rounding puts between them is no gap. */
+START_TEST(test_meshed_house)
+{
+    static double f[FACES * FACES], area[FACES];
+    const double o[3] = {0, 0, 0}, far[3] = {4, 4, 4}, low[3] = {1, 1, 1}, high[3] = {2, 2, 2.2};
+    clear();
+    box(o, far, 1, 0);
+    if (_i % 2)
+        box(low, high, 0, 0);
+    box(low, high, 1, 0);
+    mesh_from(_i % 2 ? 12 : 6);
+    if (_i % 2 == 0)
+        box(low, high, 0, 0);
+    if (_i / 2)
+        turn_and_round();
+    factors(scene.faces, 0, f, area);
+    for (uint32_t i = 0; i < scene.faces; i++)
+        ck_assert_double_eq_tol(row_sum(f, i), 1, 3e-4);
+}
+END_TEST
+
 /* A shelf whose end lies on a post, but for four ninths of it: a post on a tile's edge, against a
  * wall, in a corner of the room, without the sides that it stands on or with them. */
 static const struct {
@@ -194,6 +253,7 @@ int main(void)
     tcase_add_test(t, test_post);
     tcase_add_test(t, test_pipe);
     tcase_add_loop_test(t, test_house, 0, under_sanitizers() ? 1 : 3);
+    tcase_add_loop_test(t, test_meshed_house, 0, 4);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
