@@ -192,8 +192,8 @@ smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | ru
 a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
 light goes through solids | runtime/engine/sight_cubature.c | s/l->ends.joined && bodies_hold/0 * l->ends.joined \&\& bodies_hold/ | runtime/check_stacked
-houses are solid | runtime/hierarchy/body_feet.c | s/if (!is_lining(s, mates, b->feet\[i\].solid))/if (b->feet[i].solid != UINT32_MAX)/ | runtime/check_stacked
-tubes are solid | runtime/hierarchy/body_feet.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/b->feet\[i\].face != NO_FACE/1/ | runtime/check_stacked
+houses are solid | runtime/hierarchy/body_feet.c | s/lines > 0 ? 0 : 1/1/ | runtime/check_stacked
+tubes are solid | runtime/hierarchy/body_feet.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/return foot->face != NO_FACE \&\&/return/ | runtime/check_stacked
 points on the larger face | runtime/engine/exchange_sight.c | s/from_r = apart ?/from_r = 0 * apart ?/ | runtime/check_slots
 points inside a quad are no rule | runtime/engine/face_rule.h | s/0.21801733953755267/0.218/ | runtime/check_face_rule
 parts with few pieces | runtime/engine/sight_limits.c | s/own.pieces = .*/own.pieces = 8;/ | runtime/check_entries
@@ -204,8 +204,13 @@ pieces cut in the middle | runtime/engine/sight_parts.c | s/OFF_MIDDLE = 0.125/O
 near faces are not asked | runtime/engine/sight_cubature.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets
 crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from > 2)/else if (to - from > 99)/ | runtime/check_stacked
 boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
-polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/if (find_by_polygons(&m, h) < 0)/if (0 \&\& find_by_polygons(\&m, h) < 0)/ | runtime/check_assemblies
-walls of a corner line what stands there | runtime/hierarchy/body_feet.c | s/if (!is_within(s, /if (0 \&\& !is_within(s, / | runtime/check_assemblies
+polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/return find_by_polygons(m, h) < 0/return 0/ | runtime/check_assemblies
+walls of a corner line what stands there | runtime/hierarchy/body_lining.c | s/l->within = is_within(l->s, &h->elements\[mate\])/l->within = 1/ | runtime/check_assemblies
+linings end where meshes differ | runtime/hierarchy/body_lining.c | s/const int count = across_edge(h, face, side, list);/const int count = across_edge(h, face, side, list) == 1;/ | runtime/check_stacked
+rounding makes gaps in walls | runtime/hierarchy/body_feet.c | s/return b->feet_count > 0 &&/return b->feet_count > UINT32_MAX \&\&/ | runtime/check_stacked
+solids are of whole sides | runtime/hierarchy/bodies.c | s/find_by_polygons(m, h) < 0 ? -1 : find_by_parts(m, h)/find_by_polygons(m, h)/ | runtime/check_assemblies
+edges that are not equal are nobody's | runtime/hierarchy/across.c | s/if (!(touch->to - touch->from > s->near))/if (!(touch->to - touch->from > s->length - s->near))/ | runtime/check_assemblies
+lids patch sides | runtime/hierarchy/bodies.c | s/!is_patched(s) \&\& is_convex/is_convex/ | runtime/check_assemblies
 shares held to nine digits | runtime/hierarchy/bodies.h | s/BODY_WHOLLY GROUP_GAPS/BODY_WHOLLY 1e-9/ | runtime/check_assemblies
 places of equal corners | runtime/hierarchy/mates.c | s/PLACES_APART . h->flat/0/ | runtime/check_bodies
 corners that faces round apart are two | runtime/hierarchy/bodies.c | s/PLACES_APART . flat/0 * flat/ | runtime/check_bodies
@@ -260,10 +265,10 @@ floors are of columns | runtime/hierarchy/bodies.c | s/return high > h->flat;/re
 sides have edges within | runtime/hierarchy/bodies.c | s/other < f .. side\[other\] == side\[f\]/other < f/ | runtime/check_standing
 outlines lose corners | runtime/engine/sight_outlines.c | s/cell->n > SIGHT_CELL_MOST/cell->n > 9999/ | runtime/check_outlines
 pieces lose corners | runtime/engine/sight_pieces.c | s/cell->n > SIGHT_CELL_MOST/cell->n > 9999/ | runtime/check_outlines
-bottoms cover nothing | runtime/hierarchy/body_feet.c | s/status = add_cover(s->h, 0, 0, .own, cover, .by)/(void)own/ | runtime/check_losses
+bottoms cover nothing | runtime/hierarchy/body_feet.c | s/status = add_cover(s->h, 0, .own, cover, .by)/(void)own/ | runtime/check_losses
 any lid is shut | runtime/hierarchy/body_feet.c | s/cover\[0\] >= most .. cover\[1\] >= most/1/ | runtime/check_standing
 covers of both sides add up | runtime/hierarchy/body_feet.c | s/cover\[0\] >= most .. cover\[1\] >= most/cover[0] + cover[1] >= most/ | runtime/check_standing
-far covers shut | runtime/hierarchy/body_feet.c | s/ .. high > most .. low < -most)/)/ | runtime/check_standing
+far covers shut | runtime/hierarchy/body_rest.c | s/ .. high > most .. low < -most)/)/ | runtime/check_standing
 parts are strangers | runtime/hierarchy/group_hierarchy.c | s/? group_fills(f, e)/? group_tiles(\&b->outliner, f, faces, e)/ | runtime/check_standing
 plates have no backs | runtime/engine/sight_bodies.c | s/0, 1};/0, 0};/ | runtime/check_standing
 great icosahedra are solid | runtime/hierarchy/solids.c | s/if (w->met\[index\] == AT_HAND)/if (0)/ | runtime/check_bodies

@@ -48,9 +48,9 @@ static int is_other_side(const struct hierarchy *h, uint32_t index, uint32_t sid
     return one.from >= all.from && one.to <= all.to;
 }
 
-/* What faces below an element cover of a lid: those that look the same
- * way as it, and the others (m2). Faces that look one way do not lie on each other (overlaps.h).
- * Returns 0, or -1 when out of memory. */
+/* What faces below an element cover of a lid: those that look the same way as it, and the others
+ * (m2). Faces that look one way do not lie on each other (overlaps.h). Returns 0, or -1 when out of
+ * memory. */
 static int add_cover(const struct hierarchy *h, uint32_t index, const struct shell_lid *lid,
                      double cover[2], const struct covering *by)
 {
@@ -118,6 +118,15 @@ static int is_open(const struct shell *s)
     return s->lids > 1;
 }
 
+/* Are faces around a lid marked as the body's? Else it stands there with another body. */
+static int has_lid(const struct bodies *b, const struct shell *s, int lid, uint32_t body)
+{
+    int own = 0;
+    for (int i = 0; i < s->edges; i++)
+        own |= s->edge[i].lid == lid && b->whose[s->face[s->edge[i].face]] == body + 1;
+    return own;
+}
+
 int body_feet_add(struct bodies *b, const struct shell *s, struct body_lining *lining,
                   uint32_t body)
 {
@@ -127,11 +136,12 @@ int body_feet_add(struct bodies *b, const struct shell *s, struct body_lining *l
     const int open = is_open(s);
     for (int i = 0; i < s->lids && !open && status == 0; i++) {
         const struct covering by = {b, body, NO_FACE};
-        status = add_cover(s->h, 0, &s->lid[i], cover, &by);
+        if (has_lid(b, s, i, body))
+            status = add_cover(s->h, 0, &s->lid[i], cover, &by);
     }
     for (int i = 0; i < s->faces && status == 0; i++) {
         const struct element *e = &s->h->elements[s->face[i]];
-        if (b->whose[s->face[i]] != body + 1) /* it stands there with another body */
+        if (b->whose[s->face[i]] != body + 1)
             continue;
         const struct covering by = {b, body, s->face[i]};
         struct shell_lid own = {.n = e->vertices};

@@ -219,7 +219,7 @@ int main(void)
     tcase_add_loop_test(t, test_blocks, 0, under_sanitizers() ? 6 : 2 * ROOMS);
     tcase_add_loop_test(t, test_cubes, 0, under_sanitizers() ? 4 : ROOMS);
     tcase_add_loop_test(t, test_rounded, 0, under_sanitizers() ? 4 : ROOMS);
-    tcase_add_loop_test(t, test_meshed, 0, under_sanitizers() ? 2 : ROOMS);
+    tcase_add_loop_test(t, test_meshed, ROOMS / 2, under_sanitizers() ? ROOMS / 2 + 1 : ROOMS);
     tcase_add_loop_test(t, test_far, 0, under_sanitizers() ? 2 : ROOMS);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
