@@ -18,6 +18,7 @@
 #include "hierarchy/bodies.h"
 #include "hierarchy/body_feet.h"
 #include "hierarchy/body_parts.h"
+#include "hierarchy/body_rest.h"
 #include "hierarchy/places.h"
 #include "hierarchy/polygon.h"
 #include "hierarchy/reach.h"
@@ -227,8 +228,8 @@ static void mark(struct bodies *b, const struct hierarchy *h, uint32_t index, ui
         mark(b, h, e->child + c, body);
 }
 
-/* Does a lid lie in the plane of a side? Then it stands for what there is of that side, in parts
- * that are not of the shell. */
+/* Does a lid lie in the plane of a side, and on something that looks the other way? Then it stands
+ * for what there is of that side, in parts that are not of the shell, where these are covered. */
 static int is_patched(const struct shell *s)
 {
     for (int i = 0; i < s->lids; i++)
@@ -237,7 +238,8 @@ static int is_patched(const struct shell *s)
             double high = 0, low = 0;
             polygon_reach((const double(*)[3])s->lid[i].corner, (uint32_t)s->lid[i].n, e->vertex[0],
                           e->normal, &high, &low);
-            if (low >= -s->h->flat && dot3(e->normal, s->lid[i].normal) > 0)
+            if (low >= -s->h->flat && dot3(e->normal, s->lid[i].normal) > 0
+                && body_rest_on_lid(s->h, &s->lid[i]))
                 return 1;
         }
     return 0;

@@ -47,6 +47,11 @@ static int has_on(const struct hierarchy *h, uint32_t index, const struct shell_
     return lid_place(&under, (const double(*)[3])lid->corner, (uint32_t)lid->n) != BESIDE;
 }
 
+int body_rest_on_lid(const struct hierarchy *h, const struct shell_lid *lid)
+{
+    return has_on(h, 0, lid);
+}
+
 int body_rest_is_on(const struct hierarchy *h, const struct element *e)
 {
     struct shell_lid lid;

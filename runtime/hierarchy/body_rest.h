@@ -9,7 +9,10 @@
  * plane: of a group's that is known but for how far its faces reach off it. */
 int body_rest_near(const struct hierarchy *h, const struct element *e, const struct shell_lid *lid);
 
-/* Does a face that looks the other way lie on an element, a group or a face, but for rounding? */
+/* Does a face that looks the other way lie on a lid, but for rounding? */
+int body_rest_on_lid(const struct hierarchy *h, const struct shell_lid *lid);
+
+/* The same of an element, a group or a face. */
 int body_rest_is_on(const struct hierarchy *h, const struct element *e);
 
 #endif

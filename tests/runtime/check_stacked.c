@@ -148,8 +148,8 @@ START_TEST(test_house)
 }
 END_TEST
 
-/* What is a rectangle from there on, as four triangles around its middle; turned, and rounded as
- * files of nine digits are. */
+/* What is a rectangle from there on, as four triangles in two halves, whose edges end in the middle
+ * of neighbours'; turned, and rounded as files of nine digits are. */
 static void mesh_from(uint32_t first)
 {
     const uint32_t last = scene.faces;
@@ -163,11 +163,16 @@ static void mesh_from(uint32_t first)
     scene.positions_used = from;
     for (uint32_t i = first; i < last; i++) {
         const double *v = &kept[(size_t)3 * (from + 4 * (i - first))];
-        for (int k = 0; k < 4; k++) {
-            const double *a = v + (size_t)3 * (size_t)k, *b = v + (size_t)3 * (size_t)((k + 1) % 4);
-            corner(a[0], a[1], a[2]);
-            corner(b[0], b[1], b[2]);
-            corner((v[0] + v[6]) / 2, (v[1] + v[7]) / 2, (v[2] + v[8]) / 2);
+        static const int corners[4][3] = {{0, 4, 5}, {0, 5, 3}, {4, 1, 2}, {4, 2, 5}};
+        double p[6][3];
+        memcpy(p, v, 4 * sizeof *p);
+        for (int k = 0; k < 3; k++) {
+            p[4][k] = 0.6 * p[0][k] + 0.4 * p[1][k];
+            p[5][k] = 0.6 * p[3][k] + 0.4 * p[2][k];
+        }
+        for (int t = 0; t < 4; t++) {
+            for (int c = 0; c < 3; c++)
+                corner(p[corners[t][c]][0], p[corners[t][c]][1], p[corners[t][c]][2]);
             end_face(3);
         }
     }
@@ -175,13 +180,14 @@ static void mesh_from(uint32_t first)
 
 static void turn_and_round(void)
 {
-    static const double c = 0.8, s = 0.6, digits = 1e8;
+    static const double digits = 1e8;
+    const double c = cos(0.7), s = sin(0.7);
     for (uint32_t i = 0; i < scene.positions_used; i++) {
         double *p = &scene.positions[(size_t)3 * i];
         const double x = c * p[0] - s * p[1], y = s * p[0] + c * p[1],
                      turned[3] = {x, c * y - s * p[2], s * y + c * p[2]};
         for (int k = 0; k < 3; k++)
-            p[k] = round((turned[k] / 3 + 0.1) * digits) / digits;
+            p[k] = round(turned[k] * digits) / digits;
     }
 }
 
