@@ -204,11 +204,11 @@ pieces cut in the middle | runtime/engine/sight_parts.c | s/OFF_MIDDLE = 0.125/O
 near faces are not asked | runtime/engine/sight_cubature.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets
 crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from > 2)/else if (to - from > 99)/ | runtime/check_stacked
 boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
-polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/return find_by_polygons(m, h) < 0/return 0/ | runtime/check_assemblies
+polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/return find_by_polygons(m, h) < 0/return 0 \&\& find_by_polygons(m, h) < 0/ | runtime/check_assemblies
 walls of a corner line what stands there | runtime/hierarchy/body_lining.c | s/l->within = is_within(l->s, &h->elements\[mate\])/l->within = 1/ | runtime/check_assemblies
-solids are of whole sides | runtime/hierarchy/bodies.c | s/find_by_polygons(m, h) < 0 ? -1 : find_by_parts(m, h)/find_by_polygons(m, h)/ | runtime/check_assemblies
+solids are of whole sides | runtime/hierarchy/bodies.c | s/-1 : find_by_parts(m, h)/-1 : 0 \&\& find_by_parts(m, h)/ | runtime/check_assemblies
 edges that are not equal are nobody's | runtime/hierarchy/across.c | s/if (!(touch->to - touch->from > s->near))/if (!(touch->to - touch->from > s->length - s->near))/ | runtime/check_assemblies
-lids patch sides | runtime/hierarchy/bodies.c | s/!is_patched(s) \&\& is_convex/is_convex/ | runtime/check_assemblies
+lids patch sides | runtime/hierarchy/bodies.c | s/!is_patched(s) \&\& is_convex/!(0 \&\& is_patched(s)) \&\& is_convex/ | runtime/check_assemblies
 shares held to nine digits | runtime/hierarchy/bodies.h | s/BODY_WHOLLY GROUP_GAPS/BODY_WHOLLY 1e-9/ | runtime/check_assemblies
 places of equal corners | runtime/hierarchy/mates.c | s/PLACES_APART . h->flat/0/ | runtime/check_bodies
 corners that faces round apart are two | runtime/hierarchy/bodies.c | s/PLACES_APART . flat/0 * flat/ | runtime/check_bodies
