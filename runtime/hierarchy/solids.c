@@ -70,8 +70,9 @@ static int bends_out(const struct shells_walk *w)
     return 1;
 }
 
-/* Has the shell at hand a corner in front of a plane, of its faces below an element? Boxes that are
- * beside the shell, or behind the plane, are not looked into: a plane of a ball meets few. */
+/* Has the shell at hand a corner in front of a plane, of its faces below an element? Boxes and
+ * groups that are beside the shell, or boxes behind the plane, are not looked into: a plane of a
+ * ball meets few, and tops of towers are a group of all of them. */
 static int has_in_front(const struct shells_walk *w, const struct element *plane, uint32_t index)
 {
     const struct element *e = &w->h->elements[index];
@@ -81,9 +82,12 @@ static int has_in_front(const struct shells_walk *w, const struct element *plane
             element_reach(plane, e, &high, &low);
         return high > w->rounds;
     }
-    for (int k = 0; k < 3 && !e->vertices; k++)
-        if (e->vertex[0][k] > w->high[k] || e->vertex[1][k] < w->low[k])
+    for (int k = 0; k < 3; k++) {
+        const double from = e->vertices ? e->centre[k] - e->radius : e->vertex[0][k],
+                     to = e->vertices ? e->centre[k] + e->radius : e->vertex[1][k];
+        if (from > w->high[k] + w->h->flat || to < w->low[k] - w->h->flat)
             return 0;
+    }
     if (!e->vertices)
         box_reach((const double(*)[3])e->vertex, plane->vertex[0], plane->normal, &high, &low);
     if (!e->vertices && high <= w->rounds / 2) /* rounding of the sum is far less */
