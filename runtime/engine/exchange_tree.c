@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/exchange_contacts.h"
 #include "engine/exchange_tree.h"
 #include "hierarchy/misfit.h"
 #include "util/array.h"
@@ -123,7 +124,8 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
         || hierarchy_build_groups(&t->h, &t->plain, share * rays_host(t->rays)->flat) < 0
         || mates_open(&t->mates, &t->h) < 0 || bodies_open(&t->bodies, &t->h, &t->mates) < 0
         || solids_open(&t->solids, &t->h, &t->mates) < 0
-        || misfit_find(&t->h, &t->bodies, &misfit) < 0)
+        || misfit_find(&t->h, &t->bodies, &misfit) < 0
+        || (rays_in_the_way(t->rays) && exchange_contacts_find(t) < 0))
         goto fail;
     t->host = *rays_host(t->rays);
     t->host.ray_offset *= share;

@@ -345,6 +345,9 @@ static int find_by_parts(struct making *m, const struct hierarchy *h)
     while (more > 0)
         more = is_solid(&shell) && add_body(m, &shell, NULL) < 0 ? -1
                                                                  : body_parts_next(&parts, &shell);
+    m->bodies->loose = parts.start;
+    m->bodies->loose_count = parts.starts;
+    parts.start = NULL;
     body_parts_close(&parts);
     return more;
 }
@@ -383,6 +386,7 @@ void bodies_close(struct bodies *b)
     free(b->covered);
     free(b->shut);
     free(b->feet);
+    free(b->loose);
     free(b->body);
     free(b->faces);
     free(b->corners);

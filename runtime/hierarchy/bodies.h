@@ -32,7 +32,9 @@ struct body {
 };
 
 /* A body stands on the front of a face, an element, on so much of it (m2); with a face of its own,
- * UINT32_MAX where it has none there. */
+ * UINT32_MAX where it has none there. Of body BODY_NONE: the face lies there, and one of the two is
+ * of something solid, that is no body (body_contacts.h). */
+enum { BODY_NONE = INT32_MAX };
 struct body_foot {
     uint32_t on, body, face;
     double area;
@@ -46,6 +48,8 @@ struct bodies {
     double *shut;    /* [built]: of that, what bodies have a face on, which light meets (m2) */
     struct body_foot *feet; /* [feet_count]: ascending by `on`, then by the body */
     size_t feet_count, feet_room;
+    uint32_t *loose; /* [loose_count]: faces, but back sides, that others lie on, most of no body */
+    size_t loose_count;
     struct body *body;
     uint32_t *faces;
     double (*corners)[3];
@@ -57,18 +61,19 @@ struct bodies {
 int bodies_open(struct bodies *bodies, const struct hierarchy *h, const struct mates *mates);
 void bodies_close(struct bodies *bodies);
 
-/* Is a point that is a little above the front of an element in a body that stands on it with a
- * face? Nothing sees it. */
+/* Is a point that is a little above the front of an element in something solid that stands on it
+ * with a face? Nothing sees it. */
 int bodies_hold(const struct bodies *bodies, const struct hierarchy *h, uint32_t element,
                 const double p[3]);
 
 /* Does a body that stands on it with a face touch another element, which looks into it there, but
- * for so much (m), or hold some of it? */
+ * for so much (m), or hold some of it? Something solid that is no body may wherever the other one
+ * touches any. */
 int bodies_join(const struct bodies *bodies, const struct hierarchy *h, uint32_t element,
                 const struct element *other, double near);
 
-/* Is one of two faces of a body that stands on the other, or that this lines? They lie on each
- * other, and what rounding puts between them is no gap. */
+/* Is one of two faces of something solid that stands on the other, or that this lines? They lie on
+ * each other, and what rounding puts between them is no gap. */
 int bodies_meet(const struct bodies *bodies, const struct hierarchy *h, uint32_t one,
                 uint32_t other);
 

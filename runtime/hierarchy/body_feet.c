@@ -166,6 +166,12 @@ static int compare_feet(const void *a, const void *b)
     return x->on != y->on ? (x->on < y->on ? -1 : 1) : (x->body > y->body) - (x->body < y->body);
 }
 
+static void sort_feet(struct bodies *b)
+{
+    if (b->feet_count)
+        qsort(b->feet, b->feet_count, sizeof *b->feet, compare_feet);
+}
+
 /* Bodies cover what they stand on, and that as much of them; where it is of a body itself, that
  * stands on them in turn and is counted so. */
 void body_feet_sum(struct bodies *b, const struct hierarchy *h)
@@ -177,8 +183,30 @@ void body_feet_sum(struct bodies *b, const struct hierarchy *h)
         if (foot->face != NO_FACE && !b->whose[foot->on])
             add_share(b, h, foot->face, foot->area / h->elements[foot->face].area);
     }
-    if (b->feet_count)
-        qsort(b->feet, b->feet_count, sizeof *b->feet, compare_feet);
+    sort_feet(b);
+}
+
+/* A foot of what is no body, unless a body's own account has it. */
+static int add_contact(struct bodies *b, uint32_t on, uint32_t face, double area)
+{
+    if (b->whose[face])
+        return 0; /* bodies_hold asks the body */
+    if (!b->whose[on]) {
+        b->covered[on] += area;
+        b->shut[on] += area;
+    }
+    return add_foot(&(struct covering){b, BODY_NONE, face}, on, area);
+}
+
+int body_feet_contacts(struct bodies *b, const struct body_contact *list, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (list[i].solid
+            && (add_contact(b, list[i].face[0], list[i].face[1], list[i].area) < 0
+                || add_contact(b, list[i].face[1], list[i].face[0], list[i].area) < 0))
+            return -1;
+    sort_feet(b);
+    return 0;
 }
 
 /* Corner and normal of a side of a body, lids last. */
@@ -224,6 +252,19 @@ static int is_joined(const struct bodies *b, const struct hierarchy *h, const st
     return joined;
 }
 
+/* Does a face lie over a point that is in its plane, or near it? */
+static int lies_over(const struct element *e, const double p[3])
+{
+    int over = 1;
+    for (int i = 0; i < e->vertices && over; i++) {
+        double edge[3], inwards[3];
+        sub3(edge, e->vertex[i + 1 < e->vertices ? i + 1 : 0], e->vertex[i]);
+        cross3(inwards, e->normal, edge);
+        over = height3(p, e->vertex[i], inwards) > 0;
+    }
+    return over;
+}
+
 /* Does it stand there, with a face? */
 static int stands(const struct body_foot *foot)
 {
@@ -248,16 +289,30 @@ int bodies_hold(const struct bodies *b, const struct hierarchy *h, uint32_t elem
                 const double p[3])
 {
     for (size_t i = first_foot(b, element); i < b->feet_count && b->feet[i].on == element; i++)
-        if (stands(&b->feet[i]) && holds(b, h, &b->body[b->feet[i].body], p))
+        if (stands(&b->feet[i])
+            && (b->feet[i].body == BODY_NONE ? lies_over(&h->elements[b->feet[i].face], p)
+                                             : holds(b, h, &b->body[b->feet[i].body], p)))
             return 1;
     return 0;
+}
+
+/* Does something solid that is no body touch it? */
+static int is_touched(const struct bodies *b, uint32_t element)
+{
+    size_t i = first_foot(b, element);
+    while (i < b->feet_count && b->feet[i].on == element && b->feet[i].body != BODY_NONE)
+        i++;
+    return i < b->feet_count && b->feet[i].on == element;
 }
 
 int bodies_join(const struct bodies *b, const struct hierarchy *h, uint32_t element,
                 const struct element *other, double near)
 {
     for (size_t i = first_foot(b, element); i < b->feet_count && b->feet[i].on == element; i++)
-        if (stands(&b->feet[i]) && is_joined(b, h, &b->body[b->feet[i].body], other, near))
+        if (stands(&b->feet[i])
+            && (b->feet[i].body == BODY_NONE
+                    ? is_touched(b, h->face_element[other->face])
+                    : is_joined(b, h, &b->body[b->feet[i].body], other, near)))
             return 1;
     return 0;
 }

@@ -3,6 +3,7 @@
 #ifndef BODY_FEET_H
 #define BODY_FEET_H
 
+#include "hierarchy/body_contacts.h"
 #include "hierarchy/body_lids.h"
 #include "hierarchy/body_lining.h"
 
@@ -16,5 +17,8 @@ int body_feet_add(struct bodies *bodies, const struct shell *shell, struct body_
 
 /* Once all are there: how much of each face is covered; the list is put in order. */
 void body_feet_sum(struct bodies *bodies, const struct hierarchy *h);
+
+/* Add those of faces of something solid, after that. Returns 0, or -1 when out of memory. */
+int body_feet_contacts(struct bodies *bodies, const struct body_contact *list, size_t count);
 
 #endif

@@ -131,6 +131,56 @@ START_TEST(test_pipe)
 }
 END_TEST
 
+/* An angle piece on the floor, which is no convex solid: from (1, 1), two long, with arms half as
+ * wide. A box on it reaches over its inner edge, or another such piece lies on all of it. */
+static void angle(double low, double high)
+{
+    static const double corner[6][2] = {{1, 1}, {3, 1}, {3, 1.5}, {1.5, 1.5}, {1.5, 3}, {1, 3}};
+    const double o[2][3] = {{1, 1, 0}, {1, 1.5, 0}}, long_x[3] = {2, 0, 0}, short_x[3] = {.5, 0, 0},
+                 short_y[3] = {0, .5, 0}, long_y[3] = {0, 1.5, 0}, tall[3] = {0, 0, high - low};
+    for (int i = 0; i < 6; i++) {
+        const double *from = corner[i], *to = corner[(i + 1) % 6], at[3] = {from[0], from[1], low},
+                     along[3] = {to[0] - from[0], to[1] - from[1], 0};
+        rectangle(at, along, tall);
+    }
+    for (int top = 0; top < 2; top++) {
+        const double arm[2][3] = {{o[0][0], o[0][1], top ? high : low},
+                                  {o[1][0], o[1][1], top ? high : low}};
+        rectangle(arm[0], top ? long_x : short_y, top ? short_y : long_x);
+        rectangle(arm[1], top ? short_x : long_y, top ? long_y : short_x);
+    }
+}
+
+START_TEST(test_angle)
+{
+    static double f[FACES * FACES], area[FACES];
+    static const double low[3] = {1.2, 1.2, 0.3}, high[3] = {2.2, 2.2, 0.6};
+    enum { TILES = 9, LOWER = TILES + 5, UPPER = LOWER + 10 };
+    double floor = 0;
+    clear();
+    room(4, 2, 3);
+    angle(0, 0.3);
+    if (_i)
+        angle(0.3, 0.32);
+    else
+        box(low, high, 0, 0);
+    factors(scene.faces, 0, f, area);
+    for (int i = 0; i < TILES; i++)
+        floor += area[i] / 16 * row_sum(f, (uint32_t)i);
+    ck_assert_double_eq_tol(floor, 1 - 1.75 / 16, 3e-4);
+    for (int i = LOWER + 6; i < LOWER + 8; i++) /* what is on the floor */
+        ck_assert_double_eq_tol(row_sum(f, (uint32_t)i), 0, 3e-4);
+    if (_i) {
+        for (int i = LOWER + 8; i < UPPER; i++) /* what the upper one lies on */
+            ck_assert_double_eq_tol(row_sum(f, (uint32_t)i), 0, 3e-4);
+        for (int i = UPPER + 6; i < UPPER + 8; i++)
+            ck_assert_double_eq_tol(row_sum(f, (uint32_t)i), 0, 3e-4);
+    } else { /* the box's bottom is bare but for what lies on the arms */
+        ck_assert_double_eq_tol(row_sum(f, UPPER), 0.49, 3e-4);
+    }
+}
+END_TEST
+
 /* An inner room whose walls lie in an outer box's planes, all of them or four or two. */
 START_TEST(test_house)
 {
@@ -258,6 +308,7 @@ int main(void)
     tcase_add_loop_test(t, test_shelf, 0, sizeof post / sizeof *post);
     tcase_add_test(t, test_post);
     tcase_add_test(t, test_pipe);
+    tcase_add_loop_test(t, test_angle, 0, 2);
     tcase_add_loop_test(t, test_house, 0, under_sanitizers() ? 1 : 3);
     tcase_add_loop_test(t, test_meshed_house, 0, under_sanitizers() ? 4 : 14);
     suite_add_tcase(suite, t);
