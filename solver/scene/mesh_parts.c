@@ -157,6 +157,12 @@ void mesh_volume(struct mesh *m, uint32_t line)
         m->first_volume = line;
 }
 
+void mesh_curved(struct mesh *m, uint32_t line)
+{
+    if (!m->curved++)
+        m->first_curved = line;
+}
+
 static int report_missing(const struct mesh *m, uint32_t position, uint32_t line)
 {
     for (size_t i = 0; i < m->nodes.slots; i++)
@@ -187,6 +193,11 @@ int mesh_finish(struct mesh *m, int quiet)
         report_warning(m->path, m->first_volume,
                        "%lu elements that fill space are passed over; faces alone are read",
                        (unsigned long)m->volumes);
+    if (m->curved && !quiet)
+        report_warning(m->path, m->first_curved,
+                       "nodes beside the corners of faces are not read (%lu such faces): faces "
+                       "are flat between corners; where they should bend, export smaller ones",
+                       (unsigned long)m->curved);
     return 0;
 }
 

@@ -32,6 +32,7 @@ struct mesh {
     struct numbered nodes;          /* to positions, NaN while a node is used and not defined */
     struct numbered materials;      /* hashes of names and reflectances to materials */
     uint32_t volumes, first_volume; /* elements that fill space, the line of the first */
+    uint32_t curved, first_curved;  /* faces with nodes beside their corners, likewise */
 };
 
 /* All return 0, or -1 after a message with the line. */
@@ -43,12 +44,14 @@ int mesh_polygon(struct mesh *m, uint32_t size, uint32_t material, uint32_t line
 int mesh_material(struct mesh *m, const char *name, size_t length, double reflectance,
                   uint32_t *material);
 void mesh_volume(struct mesh *m, uint32_t line);
+void mesh_curved(struct mesh *m, uint32_t line);
 /* The word at hand, which must be a finite number: `what` belongs there. */
 int mesh_number(const struct mesh *m, const struct text_lines *t, const char *what, double *x);
 /* Says that the word at hand is none of what belongs there; -1. */
 int mesh_unexpected(const struct mesh *m, const struct text_lines *t, const char *what);
 
-/* At the file's end: are all nodes there, is there a face? Tells of volumes unless `quiet`. */
+/* At the file's end: are all nodes there, is there a face? Tells of volumes and of what may be
+ * curved unless `quiet`. */
 int mesh_finish(struct mesh *m, int quiet);
 void mesh_free(struct mesh *m);
 

@@ -387,6 +387,8 @@ static int read_corners(struct gmsh *g, int64_t type, int64_t group)
     g->mesh.file->other += corners == 0;
     if (corners <= 0)
         return 0;
+    if (nodes_of(type) != corners)
+        mesh_curved(&g->mesh, line);
     if (group_material(g, group, &material))
         return -1;
     for (int i = 0; i < corners; i++)

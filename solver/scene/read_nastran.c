@@ -204,8 +204,17 @@ static int read_system_of_grids(struct nastran *a)
     return 0;
 }
 
+static int is_one_of(const char *name, const char *const *names)
+{
+    for (; *names; names++)
+        if (strcasecmp(name, *names) == 0)
+            return 1;
+    return 0;
+}
+
 static int read_shell(struct nastran *a, uint32_t corners)
 {
+    static const char *const curved[] = {"CTRIA6", "CQUAD8", "CQUAD", NULL};
     int64_t number, property;
     uint32_t material;
     char name[40];
@@ -218,20 +227,15 @@ static int read_shell(struct nastran *a, uint32_t corners)
     const int length = snprintf(name, sizeof name, "PSHELL %lld", (long long)property);
     if (mesh_material(&a->mesh, name, (size_t)length, MESH_GREY, &material))
         return -1;
+    if (a->card.fields > 2 + (int)corners && *a->card.field[2 + corners]
+        && is_one_of(a->card.name, curved))
+        mesh_curved(&a->mesh, a->card.line);
     for (uint32_t i = 0; i < corners; i++) {
         if (field_number(a, 2 + (int)i, "a corner", &given)
             || field_whole(a, 2 + (int)i, "a corner", &number) || mesh_corner(&a->mesh, number))
             return -1;
     }
     return mesh_polygon(&a->mesh, corners, material, a->card.line);
-}
-
-static int is_one_of(const char *name, const char *const *names)
-{
-    for (; *names; names++)
-        if (strcasecmp(name, *names) == 0)
-            return 1;
-    return 0;
 }
 
 /* What has been gathered of a card is all of it. */

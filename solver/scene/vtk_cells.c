@@ -82,6 +82,8 @@ int vtk_cell(struct mesh *m, struct vtk_points points, double type, const double
                             "a cell of type %g has %zu points; the file is damaged, export it "
                             "again",
                             type, size);
+    if (corners != ANY && size > count)
+        mesh_curved(m, line);
     if (is_whole(type, 256) && (int)type == VTK_STRIP)
         return add_strip(m, points, point, size, line);
     for (size_t i = 0; i < count; i++) {

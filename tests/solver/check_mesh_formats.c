@@ -752,6 +752,47 @@ START_TEST(test_view3d_surfaces)
 }
 END_TEST
 
+/* Of faces with nodes beside their corners it is told once that these are not read; of others
+ * nothing is, also where Nastran leaves those fields empty or writes an angle there. */
+START_TEST(test_curved)
+{
+    static const char gmsh[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n"
+                               "2 1 0 0\n3 0 1 0\n4 .5 -.1 0\n5 .6 .6 0\n6 -.1 .5 0\n"
+                               "$EndNodes\n$Elements\n";
+    static const char vtk[] = "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                              "POINTS 6 float\n0 0 0 1 0 0 0 1 0 .5 -.1 0 .6 .6 0 -.1 .5 0\n";
+    static const char grids[] = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
+                                "GRID,4,,.5,-.1,0.\nGRID,5,,.6,.6,0.\nGRID,6,,-.1,.5,0.\n";
+    static const struct {
+        const char *name, *begin, *rest, *said;
+    } cases[] = {
+        {"c.msh", gmsh, "2\n1 9 0 1 2 3 4 5 6\n2 9 0 3 2 1 5 4 6\n$EndElements\n",
+         ":15: warning: nodes beside the corners of faces are not read (2 such"},
+        {"c.msh", gmsh, "1\n1 2 0 1 2 3\n$EndElements\n", NULL},
+        {"c.vtk", vtk, "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n",
+         "warning: nodes beside the corners of faces are not read (1 such"},
+        {"c.vtk", vtk, "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n", NULL},
+        {"c.vtk", vtk, "CELLS 1 6\n5 0 1 4 2 5\nCELL_TYPES 1\n7\n", NULL},
+        {"c.bdf", grids, "CTRIA6,1,1,1,2,3,4,5,6\n",
+         ":7: warning: nodes beside the corners of faces are not read (1 such"},
+        {"c.bdf", grids, "CTRIA6,1,1,1,2,3\n", NULL},
+        {"c.bdf", grids, "CTRIA6,1,1,1,2,3,,,,45.\n", NULL},
+        {"c.bdf", grids, "CTRIA3,1,1,1,2,3,45.\n", NULL},
+    };
+    static const struct scene_options told = {.quiet = 0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        text.size = 0;
+        put("%s%s", cases[i].begin, cases[i].rest);
+        write_text(cases[i].name);
+        const char *said = said_of(in_folder(cases[i].name), &told, 0);
+        if (cases[i].said)
+            ck_assert_msg(strstr(said, cases[i].said) != NULL, "%zu: %s", i, said);
+        else
+            ck_assert_msg(!strstr(said, "beside"), "%zu: %s", i, said);
+    }
+}
+END_TEST
+
 /* A hexagon and an L are one polygon each; each triangle of a strip is one, with one front. */
 START_TEST(test_polygons_of_vtk)
 {
@@ -792,6 +833,7 @@ int main(void)
     tcase_add_loop_test(t, test_cut_bytes, 0, 3);
     tcase_add_test(t, test_view3d_surfaces);
     tcase_add_test(t, test_polygons_of_vtk);
+    tcase_add_test(t, test_curved);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);
     folder_remove();
