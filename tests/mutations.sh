@@ -205,7 +205,6 @@ pieces cut in the middle | runtime/engine/sight_parts.c | s/OFF_MIDDLE = 0.125/O
 near faces are not asked | runtime/engine/sight_cubature.c | s/MISJUDGED = 0.25/MISJUDGED = 0/ | runtime/check_sheets
 crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from > 2)/else if (to - from > 99)/ | runtime/check_stacked
 boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
-polygons in groups are of no solid | runtime/hierarchy/bodies.c | s/return find_by_polygons(m, h) < 0/return 0 \&\& find_by_polygons(m, h) < 0/ | runtime/check_assemblies
 walls of a corner line what stands there | runtime/hierarchy/body_lining.c | s/l->within = is_within(l->s, &h->elements\[mate\])/l->within = 1/ | runtime/check_assemblies
 faces that lie on each other are apart | runtime/hierarchy/body_feet.c | s/return b->feet_count > 0 \&\& dot3/return 0 \&\& b->feet_count \&\& dot3/ | runtime/check_stacked
 solids are of whole sides | runtime/hierarchy/bodies.c | s/-1 : find_by_parts(m, h)/-1 : 0 \&\& find_by_parts(m, h)/ | runtime/check_assemblies

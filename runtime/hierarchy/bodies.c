@@ -5,9 +5,8 @@
  * Where other faces cover such sides wholly they are shut by lids (body_lids.h); what goes in there
  * meets them, so lids change nothing outside. Where no corner of a closed shell lies in front of
  * any of its planes, it is the surface of a convex solid, its fronts outside. So what it hides from
- * a point is one convex polygon, whatever its faces are. Solids are
- * made of what stands in shafts; then of whole polygons, where groups are of several solids; then
- * of any faces (body_parts.h). Invariant: a body has no free edge but its lids', no bent face and
+ * a point is one convex polygon, whatever its faces are. Solids are made of what stands in shafts,
+ * and then, where faces lie on each other, of any faces (body_parts.h). Invariant: a body has no free edge but its lids', no bent face and
  * no face whose front looks inside; a face is told to be of one body at most, also where a stack is
  * a solid and its boxes are.
  * [a closed surface that each of its planes supports is its hull's; derived here]
@@ -286,55 +285,8 @@ static int find(struct making *m, const struct hierarchy *h, const struct mates 
     return 0;
 }
 
-/* Are the faces of a group parts of one polygon, and its outline no more than these? */
-static int is_polygon(const struct hierarchy *h, uint32_t index)
-{
-    const struct element *e = &h->elements[index];
-    const struct face_range range = h->range[index];
-    const struct face *first = &h->faces[h->order[range.from]];
-    double v[4][3], normal[3], sum = 0;
-    if (!e->vertices)
-        return 0;
-    for (uint32_t p = range.from; p < range.to; p++) {
-        const struct face *face = &h->faces[h->order[p]];
-        if (face->input != first->input || face->back != first->back)
-            return 0;
-        sum += h->elements[h->face_element[h->order[p]]].area;
-    }
-    memcpy(v, e->vertex, sizeof v);
-    const double area = polygon_normal(v, e->vertices, normal);
-    return fabs(area - sum) <= BODY_WHOLLY * area;
-}
-
-static void choose_polygons(const struct hierarchy *h, uint32_t index, unsigned char *solid)
-{
-    const struct element *e = &h->elements[index];
-    if (!e->children || is_polygon(h, index)) {
-        solid[index] = 1;
-        return;
-    }
-    for (uint32_t c = 0; c < e->children; c++)
-        choose_polygons(h, e->child + c, solid);
-}
-
-/* Bodies whose polygons are in groups with others', as the tops of two boxes side by side are. They
- * stand on what they do; but what is in shafts is not of them. */
-static int find_by_polygons(struct making *m, const struct hierarchy *h)
-{
-    struct hierarchy polygons = *h;
-    struct mates mates = {NULL};
-    int status = -1;
-    polygons.solid = calloc((size_t)h->built + 1, sizeof *polygons.solid);
-    if (polygons.solid) {
-        choose_polygons(h, 0, polygons.solid);
-        status = mates_open(&mates, &polygons) < 0 ? -1 : find(m, &polygons, &mates);
-    }
-    mates_close(&mates);
-    free(polygons.solid);
-    return status;
-}
-
-/* Bodies whose polygons are in groups with others' part by part (body_parts.h). */
+/* Bodies whose sides are in groups with others', as those of boxes that stand flush are, part by
+ * part (body_parts.h). They stand on what they do; but what is in shafts is not of them. */
 static int find_by_parts(struct making *m, const struct hierarchy *h)
 {
     struct body_parts parts;
@@ -359,7 +311,7 @@ static int find_all(struct making *m, const struct hierarchy *h, const struct ma
         return -1;
     for (uint32_t i = 0; i < h->built; i++)
         b->of[i] = h->solid[i] ? b->whose[i] : 0;
-    return find_by_polygons(m, h) < 0 ? -1 : find_by_parts(m, h);
+    return find_by_parts(m, h);
 }
 
 int bodies_open(struct bodies *b, const struct hierarchy *h, const struct mates *mates)

@@ -2,7 +2,7 @@
  *
  * Solids that stand flush on each other have sides in one plane, and what is one side is in groups
  * with others', where triangles, or the parts that contacts cut them into, do not end with it. Then
- * neither groups nor polygons make the solid. But its faces, all of them, still close a shell, part
+ * groups do not make the solid. But its faces, all of them, still close a shell, part
  * by part, though edges that meet are not equal (across.h). That takes longer, so only shells are
  * looked for of which some face lies on one that looks the other way, where it matters whether
  * there is a solid. A shell that bends in somewhere is left as soon as that is known: of a floor
