@@ -207,7 +207,7 @@ crowded edges have no mates | runtime/hierarchy/mates.c | s/else if (to - from >
 boxes in corners are open | runtime/hierarchy/body_lids.c | s/if (lids < 2 /if (lids < 9 / | runtime/check_stacked
 walls of a corner line what stands there | runtime/hierarchy/body_lining.c | s/l->within = is_within(l->s, &h->elements\[mate\])/l->within = 1/ | runtime/check_assemblies
 faces that lie on each other are apart | runtime/hierarchy/body_feet.c | s/return b->feet_count > 0 \&\& dot3/return 0 \&\& b->feet_count \&\& dot3/ | runtime/check_stacked
-solids are of whole sides | runtime/hierarchy/bodies.c | s/-1 : find_by_parts(m, h)/-1 : 0 \&\& find_by_parts(m, h)/ | runtime/check_assemblies
+solids are of whole sides | runtime/hierarchy/bodies.c | s/return find_by_parts(m, h)/return 0 \&\& find_by_parts(m, h)/ | runtime/check_assemblies
 edges that are not equal are nobody's | runtime/hierarchy/across.c | s/if (!(touch->to - touch->from > s->near))/if (!(touch->to - touch->from > s->length - s->near))/ | runtime/check_assemblies
 lids patch sides | runtime/hierarchy/bodies.c | s/!is_patched(s) \&\& is_convex/!(0 \&\& is_patched(s)) \&\& is_convex/ | runtime/check_assemblies
 shares held to nine digits | runtime/hierarchy/bodies.h | s/BODY_WHOLLY GROUP_GAPS/BODY_WHOLLY 1e-9/ | runtime/check_assemblies

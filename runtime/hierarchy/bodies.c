@@ -6,9 +6,9 @@
  * meets them, so lids change nothing outside. Where no corner of a closed shell lies in front of
  * any of its planes, it is the surface of a convex solid, its fronts outside. So what it hides from
  * a point is one convex polygon, whatever its faces are. Solids are made of what stands in shafts,
- * and then, where faces lie on each other, of any faces (body_parts.h). Invariant: a body has no free edge but its lids', no bent face and
- * no face whose front looks inside; a face is told to be of one body at most, also where a stack is
- * a solid and its boxes are.
+ * and then, where faces lie on each other, of any faces (body_parts.h). Invariant: a body has no
+ * free edge but its lids', no bent face and no face whose front looks inside; a face is told to be
+ * of one body at most, also where a stack is a solid and its boxes are.
  * [a closed surface that each of its planes supports is its hull's; derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
