@@ -423,7 +423,7 @@ static void walk_all(struct walk *walk)
     }
 }
 
-struct differences dag_walk_both(const struct compared side[SIDES], struct arena *arena, FILE *out)
+struct differences dag_walk_both(const struct compared *side, struct arena *arena, FILE *out)
 {
     struct walk *walk = dag_alloc(arena, sizeof *walk);
     const size_t terms = (size_t)side[0].dag->term_count;

@@ -20,8 +20,8 @@ struct differences {
     int cut;    /* 1: there are more than are looked at */
 };
 
-/* Prints the first WAYS_SHOWN ways that differ to `out`, unless it is NULL. Inside dag_protect of
- * whatever the arena belongs to. */
-struct differences dag_walk_both(const struct compared side[SIDES], struct arena *arena, FILE *out);
+/* side: SIDES of them. Prints the first WAYS_SHOWN ways that differ to `out`, unless it is NULL.
+ * Inside dag_protect of whatever the arena belongs to. */
+struct differences dag_walk_both(const struct compared *side, struct arena *arena, FILE *out);
 
 #endif
