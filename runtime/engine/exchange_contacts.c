@@ -13,6 +13,8 @@
 #include "hierarchy/body_feet.h"
 #include "hierarchy/body_rest.h"
 #include "kernel/constants.h"
+#include "kernel/hemisphere.h"
+#include "kernel/lambert.h"
 
 /* Of rays around a point. Chosen: from the middle of a disc the lowest meet its rim where it is 64
  * times as wide as thick. */
@@ -26,15 +28,13 @@ static const double PLACE = 8;
 /* Does a face that looks against n lie where a ray met one that looks along it? */
 static int is_double(const struct hierarchy *h, const double at[3], const double n[3])
 {
-    struct shell_lid place = {.n = 3};
-    double u[3] = {0, 0, 0}, v[3];
-    u[fabs(n[0]) < 0.6 ? 0 : 1] = 1;
-    cross3(v, n, u);
-    cross3(u, v, n);
+    const struct hemisphere over = hemisphere_over(n);
+    struct shell_lid place;
+    place.n = 3;
     for (int k = 0; k < 3; k++) {
-        place.corner[0][k] = at[k] + PLACE * h->flat * u[k];
-        place.corner[1][k] = at[k] + PLACE * h->flat * v[k];
-        place.corner[2][k] = at[k] - PLACE * h->flat * u[k];
+        place.corner[0][k] = at[k] + PLACE * h->flat * over.u[k];
+        place.corner[1][k] = at[k] + PLACE * h->flat * over.v[k];
+        place.corner[2][k] = at[k] - PLACE * h->flat * over.u[k];
         place.normal[k] = n[k];
     }
     return body_rest_on_lid(h, &place);
@@ -54,7 +54,7 @@ static int is_solid_over(const struct exchange_tree *t, const struct element *e,
     }
     cross3(v, e->normal, u);
     for (int i = 0; i < AROUND * RISES; i++) {
-        const double turn = 2 * acos(-1) * (i % AROUND + 0.5) / AROUND, rise = RISE[i / AROUND];
+        const double turn = 2 * LAMBERT_PI * (i % AROUND + 0.5) / AROUND, rise = RISE[i / AROUND];
         double direction[3], at[3], normal[3] = {0, 0, 0};
         for (int k = 0; k < 3; k++)
             direction[k] = cos(turn) * u[k] + sin(turn) * v[k] + rise * e->normal[k];

@@ -6,33 +6,24 @@
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
-#include <string.h>
 #include "hierarchy/body_contacts.h"
 #include "hierarchy/body_rest.h"
 #include "hierarchy/lids.h"
 #include "util/array.h"
 
-enum { CORNERS = 8 }; /* of what two polygons of four have in common */
-
 /* What an element has in common with a lid: its area, and the middle of its corners. */
 static double common(const struct lid *lid, const struct element *e, double middle[3])
 {
-    double part[2][CORNERS][3], h[CORNERS], normal[3];
-    int count = e->vertices, at = 0;
-    memcpy(part[0], e->vertex, (size_t)count * sizeof part[0][0]);
-    for (uint32_t k = 0; k < lid->n && count >= 3; k++, at = !at) {
-        for (int i = 0; i < count; i++)
-            h[i] = height3(part[at][i], lid->corner[k], lid->across[k]);
-        count = polygon_divide(&part[at][0][0], count, 3, h, CORNERS, &part[!at][0][0], NULL, NULL);
-    }
+    double part[LID_COMMON][3], normal[3];
+    const int count = lid_common(lid, (const double(*)[3])e->vertex, e->vertices, part);
     if (count < 3)
         return 0;
     for (int k = 0; k < 3; k++) {
         middle[k] = 0;
         for (int i = 0; i < count; i++)
-            middle[k] += part[at][i][k] / count;
+            middle[k] += part[i][k] / count;
     }
-    return polygon_normal(part[at], (uint32_t)count, normal);
+    return polygon_normal(part, (uint32_t)count, normal);
 }
 
 /* Of a face with what is below an element. */
@@ -66,11 +57,10 @@ int body_contacts_find(struct body_contacts *all, const struct bodies *b, const 
 {
     for (size_t i = 0; i < b->loose_count; i++) {
         const struct element *e = &h->elements[b->loose[i]];
-        struct shell_lid own = {.n = e->vertices};
+        struct shell_lid own;
         if (b->whose[b->loose[i]])
             continue;
-        memcpy(own.corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
-        memcpy(own.normal, e->normal, sizeof own.normal);
+        shell_lid_of(&own, e);
         if (find_on(all, b, h, 0, b->loose[i], &own) < 0)
             return -1;
     }

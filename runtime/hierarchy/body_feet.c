@@ -37,15 +37,17 @@ static int add_foot(const struct covering *by, uint32_t on, double area)
     return 0;
 }
 
+static int is_part(const struct hierarchy *h, uint32_t face, uint32_t of)
+{
+    return h->range[of].from <= h->range[face].from && h->range[face].to <= h->range[of].to;
+}
+
 /* Is a face the other side of one of a side of the body? It is no more behind that than the side
  * itself is. */
 static int is_other_side(const struct hierarchy *h, uint32_t index, uint32_t side)
 {
     const uint32_t other = face_other_side(h->faces, h->face_count, h->elements[index].face);
-    if (other == UINT32_MAX || side == NO_FACE)
-        return 0;
-    const struct face_range all = h->range[side], one = h->range[h->face_element[other]];
-    return one.from >= all.from && one.to <= all.to;
+    return other != UINT32_MAX && side != NO_FACE && is_part(h, h->face_element[other], side);
 }
 
 /* What faces below an element cover of a lid: those that look the same way as it, and the others
@@ -144,9 +146,8 @@ int body_feet_add(struct bodies *b, const struct shell *s, struct body_lining *l
         if (b->whose[s->face[i]] != body + 1)
             continue;
         const struct covering by = {b, body, s->face[i]};
-        struct shell_lid own = {.n = e->vertices};
-        memcpy(own.corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
-        memcpy(own.normal, e->normal, sizeof own.normal);
+        struct shell_lid own;
+        shell_lid_of(&own, e);
         status = add_cover(s->h, 0, &own, cover, &by);
     }
     const size_t all = b->feet_count;
@@ -315,11 +316,6 @@ int bodies_join(const struct bodies *b, const struct hierarchy *h, uint32_t elem
                     : is_joined(b, h, &b->body[b->feet[i].body], other, near)))
             return 1;
     return 0;
-}
-
-static int is_part(const struct hierarchy *h, uint32_t face, uint32_t of)
-{
-    return h->range[of].from <= h->range[face].from && h->range[face].to <= h->range[of].to;
 }
 
 /* Does a face that is part of another lie on an element? */

@@ -3,6 +3,7 @@
 #ifndef BODY_LIDS_H
 #define BODY_LIDS_H
 
+#include <string.h>
 #include "hierarchy/bodies.h"
 
 /* An edge that nobody of the shell is across: of a face, from its corner to the next one. */
@@ -30,6 +31,14 @@ struct shell {
     } lid[BODY_LIDS];
     struct lid_joint joint[BODY_LIDS];
 };
+
+/* As large as an element; its area and length are not asked. */
+static inline void shell_lid_of(struct shell_lid *lid, const struct element *e)
+{
+    lid->n = e->vertices;
+    memcpy(lid->corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
+    memcpy(lid->normal, e->normal, sizeof lid->normal);
+}
 
 /* Is a side flat, and does no corner of the shell lie in front of its plane, and some behind by
  * more than rounding? Else points in the plane of a plate were inside. */

@@ -1,7 +1,6 @@
 /* body_rest.c - see body_rest.h.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <string.h>
 #include "hierarchy/body_rest.h"
 #include "hierarchy/lids.h"
 #include "hierarchy/reach.h"
@@ -17,10 +16,9 @@ int body_rest_near(const struct hierarchy *h, const struct element *e, const str
         if (!(fabs(dot3(e->normal, lid->normal)) > GROUP_COSINE) || high > most || low < -most)
             return 0;
     }
+    element_box(e, box);
     for (int k = 0; k < 3; k++) {
         double from = v[0][k], to = from;
-        box[0][k] = e->vertices ? e->centre[k] - e->radius : e->vertex[0][k];
-        box[1][k] = e->vertices ? e->centre[k] + e->radius : e->vertex[1][k];
         for (int i = 1; i < lid->n; i++) {
             from = v[i][k] < from ? v[i][k] : from;
             to = v[i][k] > to ? v[i][k] : to;
@@ -55,8 +53,6 @@ int body_rest_on_lid(const struct hierarchy *h, const struct shell_lid *lid)
 int body_rest_is_on(const struct hierarchy *h, const struct element *e)
 {
     struct shell_lid lid;
-    lid.n = e->vertices;
-    memcpy(lid.corner, e->vertex, (size_t)e->vertices * sizeof *e->vertex);
-    memcpy(lid.normal, e->normal, sizeof lid.normal);
+    shell_lid_of(&lid, e);
     return has_on(h, 0, &lid);
 }

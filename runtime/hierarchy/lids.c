@@ -66,21 +66,34 @@ enum lid_place lid_place(const struct lid *lid, const double (*vertex)[3], uint3
     return place;
 }
 
+int lid_common(const struct lid *lid, const double (*vertex)[3], uint32_t n,
+               double part[LID_COMMON][3])
+{
+    double h[LID_COMMON], other[LID_COMMON][3], (*now)[3] = part, (*next)[3] = other;
+    int count = (int)n;
+    memcpy(part, vertex, n * sizeof *vertex);
+    for (uint32_t e = 0; e < lid->n && count >= 3; e++) {
+        double(*left)[3] = next;
+        for (int i = 0; i < count; i++)
+            h[i] = height3(now[i], lid->corner[e], lid->across[e]);
+        count = polygon_divide(&now[0][0], count, 3, h, LID_COMMON, &left[0][0], NULL, NULL);
+        next = now;
+        now = left;
+    }
+    if (now != part && count > 0)
+        memcpy(part, now, (size_t)count * sizeof *part);
+    return count;
+}
+
 double lid_area(const struct lid *lid, const double (*vertex)[3], uint32_t n,
                 const double normal[3])
 {
-    double part[2][8][3], h[8], twice = 0;
-    int count = (int)n, at = 0;
-    memcpy(part[0], vertex, n * sizeof *vertex);
-    for (uint32_t e = 0; e < lid->n && count >= 3; e++, at = !at) {
-        for (int i = 0; i < count; i++)
-            h[i] = height3(part[at][i], lid->corner[e], lid->across[e]);
-        count = polygon_divide(&part[at][0][0], count, 3, h, 8, &part[!at][0][0], NULL, NULL);
-    }
+    double part[LID_COMMON][3], twice = 0;
+    const int count = lid_common(lid, vertex, n, part);
     for (int i = 2; i < count; i++) {
         double a[3], b[3], c[3];
-        sub3(a, part[at][i - 1], part[at][0]);
-        sub3(b, part[at][i], part[at][0]);
+        sub3(a, part[i - 1], part[0]);
+        sub3(b, part[i], part[0]);
         cross3(c, a, b);
         twice += dot3(c, normal);
     }

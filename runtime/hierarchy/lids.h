@@ -38,7 +38,13 @@ void lid_of(struct lid *lid, const double (*vertex)[3], uint32_t n, const double
 enum lid_place { BESIDE, UNDER, ACROSS };
 enum lid_place lid_place(const struct lid *lid, const double (*vertex)[3], uint32_t n);
 
-/* Area of the part of a convex polygon that is under the lid; n is 4 at most (m2). */
+/* What of a convex polygon is under the lid; n is 4 at most. Returns its corners, fewer than three
+ * where there is none. */
+enum { LID_COMMON = 8 };
+int lid_common(const struct lid *lid, const double (*vertex)[3], uint32_t n,
+               double part[LID_COMMON][3]);
+
+/* Area of that (m2). */
 double lid_area(const struct lid *lid, const double (*vertex)[3], uint32_t n,
                 const double normal[3]);
 

@@ -25,6 +25,15 @@ static inline void element_reach(const struct element *plane, const struct eleme
                   low);
 }
 
+/* A box around a surface, which a sphere is known around, or that of a cluster. */
+static inline void element_box(const struct element *e, double box[2][3])
+{
+    for (int k = 0; k < 3; k++) {
+        box[0][k] = e->vertices ? e->centre[k] - e->radius : e->vertex[0][k];
+        box[1][k] = e->vertices ? e->centre[k] + e->radius : e->vertex[1][k];
+    }
+}
+
 /* How far a box, from its low corner to its high one, reaches in front of a plane, and behind. */
 static inline void box_reach(const double (*box)[3], const double on[3], const double normal[3],
                              double *high, double *low)

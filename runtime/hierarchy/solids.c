@@ -76,18 +76,16 @@ static int bends_out(const struct shells_walk *w)
 static int has_in_front(const struct shells_walk *w, const struct element *plane, uint32_t index)
 {
     const struct element *e = &w->h->elements[index];
-    double high = 0, low = 0;
+    double high = 0, low = 0, box[2][3];
     if (!e->children) {
         if (w->met[index] == AT_HAND)
             element_reach(plane, e, &high, &low);
         return high > w->rounds;
     }
-    for (int k = 0; k < 3; k++) {
-        const double from = e->vertices ? e->centre[k] - e->radius : e->vertex[0][k],
-                     to = e->vertices ? e->centre[k] + e->radius : e->vertex[1][k];
-        if (from > w->high[k] + w->h->flat || to < w->low[k] - w->h->flat)
+    element_box(e, box);
+    for (int k = 0; k < 3; k++)
+        if (box[0][k] > w->high[k] + w->h->flat || box[1][k] < w->low[k] - w->h->flat)
             return 0;
-    }
     if (!e->vertices)
         box_reach((const double(*)[3])e->vertex, plane->vertex[0], plane->normal, &high, &low);
     if (!e->vertices && high <= w->rounds / 2) /* rounding of the sum is far less */
