@@ -788,8 +788,10 @@ struct RadErrorReport {
 };
 /* Measure how far the solution, mended or not, is from the truth, by particles traced from the
  * emitters that no part of it comes from: unbiased whatever oracle and links are, with the noise
- * of chance, which the intervals tell. NULL options: the defaults. The same figures for any number
- * of threads. Returns 0, or -1. [Pattanaik and Mudur 1992; engine/face_error.c] */
+ * of chance, which the intervals tell. Of a mended solution the intervals of power and l1_faces
+ * are narrowed by what the particles that mended it say (engine/mended_reach.c). NULL options: the
+ * defaults. The same figures for any number of threads. Returns 0, or -1.
+ * [Pattanaik and Mudur 1992; engine/face_error.c] */
 RAD_API int radMeasureError(RadSolution solution, const struct RadMeasureOptions *options,
                             struct RadErrorReport *report);
 

@@ -159,6 +159,8 @@ half of what stands before a piece | runtime/engine/sight_cubature.c | s/memcpy(
 counted by nobody, surely nothing | runtime/engine/mend_clusters.c | s/known \* noise + (1 - known) \* chance/noise/ | runtime/check_measured_error
 the worst of all thresholds | runtime/engine/mend_clusters.c | s/r->left\[i\] < r->left\[best\]/r->left[i] > r->left[best]/ | runtime/check_mended_error
 thresholds that noise chooses | runtime/engine/mend_clusters.c | s,? 4 \* h / children \* note->replicates,? 0 * h / children, | runtime/check_mended_error
+counts that disagree are as sure | runtime/engine/mended_reach.c | s/apart \* apart \/ both)/0 * apart)/ | runtime/check_mended_reach
+mending is a third of what it is | runtime/engine/mended_reach.c | s/reach->l1 = left$/reach->l1 = 0.3 * left/ | runtime/check_mended_reach
 large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + (sums/0 * noise->large + (sums/ | runtime/check_mended_error
 far sides the other way round | runtime/hierarchy/long_faces.c | s/back ? 3 - c : c/c/ | runtime/check_long_faces
 short sides are cut | runtime/hierarchy/long_faces.c | s/sides\[0\] >= sides\[1\] ? 0 : 1/sides[0] >= sides[1] ? 1 : 0/ | runtime/check_long_faces

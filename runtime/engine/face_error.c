@@ -426,10 +426,12 @@ int face_noise_find(const struct problem *p, const struct hierarchy *h, const do
     struct counted *c = counted_open(p, h, irradiance, tally);
     double *areas = polygon_areas(p, h);
     const int failed = ranks_any(tally->quarters ? p->options.ranks : NULL, !c || !areas);
-    *noise = (struct face_noise){0, 0};
-    if (!failed && c->reflected > 0)
-        *noise = (struct face_noise){expected_noise(c).value,
-                                     noise_of_large(c, areas, large_area(p, h))};
+    *noise = (struct face_noise){0, 0, 0};
+    if (!failed && c->reflected > 0) {
+        const struct RadMeasure all = expected_noise(c);
+        *noise = (struct face_noise){all.value, noise_of_large(c, areas, large_area(p, h)),
+                                     (all.high - all.value) / NORMAL_T};
+    }
     counted_close(c);
     free(areas);
     return failed ? -1 : 0;

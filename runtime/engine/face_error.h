@@ -34,10 +34,10 @@ struct face_error {
 int face_error_open(struct face_error *f, const struct problem *p, const struct hierarchy *h,
                     const double *irradiance, const struct tally *tally);
 /* The L1 error of polygons that the noise of the tally alone makes, as a share of the reflected
- * light; and what polygons above large_area have of it. Returns 0, or -1 when out
- * of memory. */
+ * light; what polygons above large_area have of it; and its standard deviation, if polygons have no
+ * noise in common. Returns 0, or -1 when out of memory. */
 struct face_noise {
-    double all, large;
+    double all, large, spread;
 };
 int face_noise_find(const struct problem *p, const struct hierarchy *h, const double *irradiance,
                     const struct tally *tally, struct face_noise *noise);

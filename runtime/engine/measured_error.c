@@ -87,8 +87,11 @@ static int measure_faces(struct solve *s, struct tally *tally, struct measured_e
     m->by_paths = tally->by_paths;
     if (black_backs_find(&m->backs, s->problem.scene, tally, s->problem.options.ranks) < 0)
         return -1;
-    return face_error_open(&m->faces, &s->problem, &s->hierarchy, solve_shown(s)->irradiance,
-                           tally);
+    if (face_error_open(&m->faces, &s->problem, &s->hierarchy, solve_shown(s)->irradiance, tally)
+        < 0)
+        return -1;
+    mended_reach_narrow(&s->reach, &m->faces);
+    return 0;
 }
 
 int measured_elements(const struct solve *s, struct measured_error *m)
@@ -281,15 +284,20 @@ static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
     tally_add(tally, t->ranks);
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
     struct state *m = &s->mended;
+    struct mended_reach reach;
     solve_forget_mended(s);
+    if (mended_reach_find(s, paths ? paths : tally, &reach) < 0)
+        return -1;
     m->radiosity = malloc(values * sizeof *m->radiosity);
     m->irradiance = malloc(values * sizeof *m->irradiance);
     if (!ranks_any(s->problem.options.ranks, !m->radiosity || !m->irradiance)) {
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
         if (mend_by(s, tally, m->irradiance) == 0
             && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_counted(s, tally) == 0
-            && (goal->look || mend_dim(s, t, paths ? paths : tally, unaided, alone, spent) == 0))
+            && (goal->look || mend_dim(s, t, paths ? paths : tally, unaided, alone, spent) == 0)) {
+            s->reach = reach;
             return 0;
+        }
     }
     solve_forget_mended(s);
     return -1;

@@ -7,6 +7,7 @@
 #include "engine/error_control.h"
 #include "engine/importance.h"
 #include "engine/linear_solution.h"
+#include "engine/mended_reach.h"
 #include "engine/operator.h"
 #include "engine/oracle_inputs.h"
 #include "engine/problem.h"
@@ -72,9 +73,10 @@ struct solve {
     size_t *stretch;
     struct light_operator operator;
     struct state state;
-    struct state mended;     /* of state, by particles (measured_error.h); NULLs: it is not */
-    double *mended_gradient; /* of linear.gradient, to go with it; NULL: none */
-    int by_paths;            /* what is mended is so by paths, and is measured by them */
+    struct state mended;       /* of state, by particles (measured_error.h); NULLs: it is not */
+    double *mended_gradient;   /* of linear.gradient, to go with it; NULL: none */
+    int by_paths;              /* what is mended is so by paths, and is measured by them */
+    struct mended_reach reach; /* of what is mended */
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;
