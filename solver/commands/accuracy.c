@@ -16,8 +16,13 @@
 #include "util/clock.h"
 #include "util/device.h"
 
-/* rays of mending, and as many of measuring: of a first look; and at the least */
+/* rays of mending: of a first look; and at the least */
 enum { FIRST_LOOK = 1 << 14, FIRST_RAYS = 1 << 16 };
+
+/* One part in so many of these measure; of errors over the surface, of which those that mend know
+ * nothing, as many. Measured: .5 % of faces in six scenes take a fifth fewer rays than with as
+ * many, and no fewer with an eighth */
+enum { MEASURING = 4 };
 
 /* how coarse links are at first, against what is set; and at the finest */
 static const double COARSEST = 8, FINEST = 1.0 / 1024;
@@ -53,14 +58,15 @@ struct work {
     double start;
 };
 
-/* Mend by so many rays, and measure by as many others; or only look. Returns 0, or -1 after a
+/* Mend by so many rays, and measure by others; or only look. Returns 0, or -1 after a
  * message. */
 static int mend_and_measure(struct work *w, uint64_t rays, int look)
 {
     const struct RadCorrectOptions correct = {.noise = 1e-9, .rays = rays, .look = look};
-    const struct RadMeasureOptions measure = {.rays = rays,
+    const int surfaces = w->o->norm == ACCURACY_L2;
+    const struct RadMeasureOptions measure = {.rays = surfaces ? rays : rays / MEASURING,
                                               .stream = (uint32_t)w->a->measurements++,
-                                              .surfaces = w->o->norm == ACCURACY_L2,
+                                              .surfaces = surfaces,
                                               .polygons = look || !measured_wants_leaves(w->o)};
     if (radCorrect(w->s->solution, &correct, &w->m->alone) < 0
         || radMeasureError(w->s->solution, &measure, &w->m->error) < 0) {
