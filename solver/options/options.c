@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "options/option_table.h"
 #include "output/export.h"
@@ -282,6 +283,14 @@ static int add_scene(struct options *o, const char *path)
     return -1;
 }
 
+static int are_one_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    return strcmp(a, b) == 0
+           || (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev
+               && x.st_ino == y.st_ino);
+}
+
 /* The arguments of tune: an oracle, then scenes. Returns -1 to go on, or the exit status. */
 static int add_oracle_or_scene(struct options *o, const char *path)
 {
@@ -292,7 +301,7 @@ static int add_oracle_or_scene(struct options *o, const char *path)
         return -1;
     }
     for (int i = 0; i < o->scene_count; i++)
-        if (strcmp(o->scenes[i], path) == 0)
+        if (are_one_file(o->scenes[i], path))
             return wrong("tune", "%s is named twice; left out, it would not be unknown", path);
     return add_scene(o, path);
 }

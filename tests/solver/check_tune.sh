@@ -29,6 +29,7 @@ says 2 "no scene is given" ff
 says 2 "the oracle's name is empty" ""
 says 2 "a scene's name is empty" ff ""
 says 2 "$room is named twice" ff "$room" "$room"
+says 2 "/./furnace.obj is named twice" ff "$room" "${room%/*}/./${room##*/}"
 for value in 0 0% 1 100% x -1; do says 2 "--error takes a share" ff "$room" --error $value; done
 "$radiosity" tune ff "$room" --basis constant --error 20% --evaluations 1 --json b.json -q >out 2>err
 check "--basis constant" grep -q '"basis": "constant"' b.json
