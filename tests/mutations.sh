@@ -159,6 +159,9 @@ half of what stands before a piece | runtime/engine/sight_cubature.c | s/memcpy(
 counted by nobody, surely nothing | runtime/engine/mend_clusters.c | s/known \* noise + (1 - known) \* chance/noise/ | runtime/check_measured_error
 the worst of all thresholds | runtime/engine/mend_clusters.c | s/r->left\[i\] < r->left\[best\]/r->left[i] > r->left[best]/ | runtime/check_mended_error
 thresholds that noise chooses | runtime/engine/mend_clusters.c | s,? 4 \* h / children \* note->replicates,? 0 * h / children, | runtime/check_mended_error
+noise of corners is shown | solver/output/smoothing.c | s/1 - SMOOTHING_THRESHOLD \*/1 - 0 */ | solver/check_smoothing
+edges are noise | solver/output/smoothing.c | s/share = fmax(0,/share = 0 * fmax(0,/ | solver/check_smoothing
+neighbours however far | solver/output/smoothing.c | s/\*of_a = far_b .*/*of_a = 0.5;/ | solver/check_smoothing
 counts that disagree are as sure | runtime/engine/mended_reach.c | s/apart \* apart \/ both)/0 * apart)/ | runtime/check_mended_reach
 mending is a third of what it is | runtime/engine/mended_reach.c | s/reach->l1 = left$/reach->l1 = 0.3 * left/ | runtime/check_mended_reach
 large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + (sums/0 * noise->large + (sums/ | runtime/check_mended_error

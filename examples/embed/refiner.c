@@ -675,15 +675,19 @@
  * least. Chosen; make picture-table tells what comes of it */
 #define REFINER_GATHERING_MOST 256
 #define REFINER_GATHERING_FEWEST 64
-/* One corner in so many gathers a second time, by other rays, to tell the noise: chosen, a quarter
- * more rays */
-#define REFINER_GATHERING_TWICE 4
-/* corners that gathered twice. So many of a face say what gathering is worth on it: known to a
+/* corners. So many of a face say what gathering is worth on it: known to a
  * third; chosen */
 #define REFINER_GATHERING_TELLING 16
 /* of the way from a corner to the centre of the smallest leaf there. Chosen: between 1/64 and 1/2
  * pictures are equally good; what stands at the corner is clear of it */
 #define REFINER_GATHERING_INWARD 0.25
+/* of the step from means of leaves to what was gathered, beyond noise, root mean square: by so much
+ * leaves are off by chance, the rest is what they are too large for. Chosen: of .3, .6 and 1 the
+ * largest by which pictures are no farther off (make picture-table) */
+#define REFINER_GATHERING_LEAVES 0.3
+/* squares of noise. What is as large as that, in the mean of a neighbourhood, is taken off. Chosen:
+ * by 1 walls are still patchy, by 4 shadows are 1/20 farther off */
+#define REFINER_SMOOTHING_THRESHOLD 2.0
 /* where the log-mean of a picture goes. chosen: 0.18 is a film's middle grey, rooms with bright
  * walls want more */
 #define REFINER_EXPOSURE_MIDDLE 0.34
