@@ -71,6 +71,8 @@ settled 5 | runtime/kernel/constants.h | s/\(SETTLED\) *1000$/\1 5/ | runtime/ch
 stop three times looser | runtime/engine/transport.c | s/x->bound \/ x->held/x->bound \/ (3 * x->held)/ | runtime/check_transport runtime/check_solve
 a fifth for a tenth | runtime/kernel/constants.h | s/\(SOLVE_SHARE\) *0.1$/\1 0.2/ | runtime/check_transport
 first child only | runtime/engine/variation.c | s/            for (int c = 0; c < e->children; c++) {/            for (int c = 0; c < 1; c++) {/ | runtime/check_transport
+guesses by shares of the light | runtime/engine/transport.c | s/factor(&guess, x->moved)/factor(\&guess, x->residual)/ | runtime/check_solvers
+slopes guessed by shares of the light | runtime/engine/linear_transport.c | s/factor(&guess, m->moved)/factor(\&guess, m->residual)/ | runtime/check_linear
 shots lose parts | runtime/engine/southwell.c | s/links += send(s, op, x, at->child + (uint32_t)c)/links += at->depth > 0 ? 0 : send(s, op, x, at->child + (uint32_t)c)/ | runtime/check_solvers
 light waits for ever | runtime/engine/southwell.c | s/        s->unshot\[i\] += s->fresh\[i\]/        s->unshot[i] = s->fresh[i]/ | runtime/check_solvers
 ambient light twice | runtime/engine/southwell.c | s/ambient\[k\] \/ (area - rho\[k\])/4 * ambient[k] \/ (area - rho[k])/ | runtime/check_solvers

@@ -38,8 +38,9 @@ static inline void extrapolation_keep(struct extrapolation *g, int what, const d
         memcpy(g->before[what], value, count * sizeof *value);
 }
 
-/* After a sweep that has changed so much of all, any norm: by which factor is the change to be
- * added to what there is? 0: it is not. Then the next ratios are of other modes. */
+/* After a sweep that has changed so much (W, any norm; not a share of the light, which shrinks or
+ * grows itself): by which factor is the change to be added to what there is? 0: it is not. Then the
+ * next ratios are of other modes. */
 static inline double extrapolation_factor(struct extrapolation *g, double change)
 {
     const double ratio = g->change > 0 ? change / g->change : 0;

@@ -281,9 +281,10 @@ static void measure(const struct sweep *s, const struct change *change, double r
         all[SQUARE] += change[i].square;
         all[AREA] += bare;
         for (uint32_t k = 0; k < s->bands; k++)
-            all[POWER] += bare * m->value[(size_t)e * s->bands + k];
+            all[POWER] += bare * fabs(m->value[(size_t)e * s->bands + k]);
     }
     ranks_add(shares->ranks, RANKS_SWEEPS, all, SUMS);
+    m->moved = all[MEAN];
     m->residual = all[POWER] > 0 ? all[MEAN] / all[POWER] : 0;
     m->bound = all[POWER] > 0 ? rho / (1 - rho) * sqrt(all[SQUARE] * all[AREA]) / all[POWER] : 0;
 }
@@ -332,7 +333,7 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
         least = fmin(least, m->bound);
         stopped = m->watch && m->watch(m->watch_context, m);
         grows = !l->limited && !(m->bound <= LINEAR_GROWS * least);
-        const double factor = jacobi ? 0 : extrapolation_factor(&guess, m->residual);
+        const double factor = jacobi ? 0 : extrapolation_factor(&guess, m->moved);
         if (factor > 0 && !m->converged) {
             extrapolation_add(&guess, GUESS_MEANS, factor, m->value, values);
             extrapolation_add(&guess, GUESS_SLOPES, factor, x->value, 3 * values);

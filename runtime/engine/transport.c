@@ -119,8 +119,9 @@ static void measure(const struct light_operator *op, struct transport *x,
     ranks_most(s->ranks, RANKS_SWEEPS, most, 3);
     for (uint32_t k = 0; k < x->bands; k++)
         left += most[k] > 0 && sums[SUM + k] > 0 ? most[k] * sums[SUM + k] : 0;
+    x->moved = sums[MOVED];
     x->residual = sums[POWER] > 0 ? sums[MOVED] / sums[POWER] : 0;
-    x->bound = left > 0 ? left / sums[POWER] : 0;
+    x->bound = !(left > 0) ? 0 : sums[POWER] > 0 ? left / sums[POWER] : INFINITY;
 }
 
 /* By how much the estimate of a rough solve takes each reflection to weaken light. */
@@ -183,7 +184,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
         double left = left_of(op, x, rho);
         x->converged = left <= 1 || (!x->rough && stalled(op, x, &least, &since));
         stopped = x->watch && x->watch(x->watch_context, x);
-        const double factor = jacobi ? 0 : extrapolation_factor(&guess, x->residual);
+        const double factor = jacobi ? 0 : extrapolation_factor(&guess, x->moved);
         if (factor > 0 && !x->converged) {
             extrapolation_add(&guess, GUESS_MEANS, factor, x->value, values);
             shares_tell_groups(&op->shares, x->value, x->bands, room);

@@ -28,7 +28,8 @@ struct transport {
 
     /* of this solve; what Southwell's method shoots between sweeps counts by the links it takes */
     int sweeps, converged;
-    double residual; /* of the last sweep: sum A |dx| / sum A x over leaves */
+    double moved;    /* by the last sweep (W): sum A |dx| over leaves */
+    double residual; /* the same over sum A x */
     /* on what iteration has left: sum A |x - its limit| / sum A x; INFINITY where rows are too
      * large for one */
     double bound;

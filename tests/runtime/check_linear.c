@@ -691,6 +691,39 @@ START_TEST(test_limited)
 }
 END_TEST
 
+/* A white cube, from the light that there is and from a hundred times as much: that shrinks about
+ * as fast as what sweeps change. Both end at the same light. */
+START_TEST(test_too_bright)
+{
+    static const struct script script = {{1, 1}, 0, 0};
+    struct scene scene;
+    struct solve s;
+    double light[2] = {0, 0};
+    furnace_cube(&scene, 0.999);
+    scene.faces[0].material = made_material(&scene, 0.999, 40);
+    run_script(&s, &scene, &script, with_basis(0, 1));
+    for (int bright = 0; bright < 2; bright++) {
+        struct transport means = {.bands = 1,
+                                  .value = s.state.radiosity,
+                                  .irradiance = s.state.irradiance,
+                                  .source = s.problem.exitance,
+                                  .reflectance = s.problem.reflectance,
+                                  .tolerance = 1e-6};
+        for (uint32_t i = 0; i < s.hierarchy.count; i++)
+            means.value[i] *= bright ? 100 : 1;
+        ck_assert_int_eq(linear_solution_solve(&s.linear, &s.operator, & means, &s.report.rows), 0);
+        ck_assert_int_eq(means.converged, 1);
+        for (uint32_t f = 0; f < 6; f++)
+            light[bright] += face_radiosity(&s, f);
+        printf("%d sweeps, %g W/m2\n", s.linear.sweeps, light[bright] / 6);
+        ck_assert_int_lt(s.linear.sweeps, 60);
+    }
+    ck_assert_double_eq_tol(light[1] / light[0], 1, 1e-5);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* A furnished room, linked so coarsely that some links bring negative light and are limited: the
  * same bits for any number of threads; no corner below 0; a leaf that is
  * covered in part, below the box, is constant; the links are those of constants, and without the
@@ -758,6 +791,7 @@ int main(void)
     tcase_add_test(solutions, test_reciprocal);
     tcase_add_loop_test(solutions, test_furnace, 0, thorough() ? 12 : 6);
     tcase_add_test(solutions, test_limited);
+    tcase_add_test(solutions, test_too_bright);
     tcase_add_test(solutions, test_room);
     tcase_set_timeout(solutions, 120);
     suite_add_tcase(suite, bases);

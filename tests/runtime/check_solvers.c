@@ -346,7 +346,8 @@ START_TEST(test_solvers)
 END_TEST
 
 /* A cube that reflects .999, one wall of it brighter: sweeps alone take thousands, each a
- * thousandth of what is left; guesses of what they come to spare nearly all. */
+ * thousandth of what is left; guesses of what they come to spare nearly all. Also from so much
+ * light that it shrinks about as fast as changes do: the two over each other hardly shrink. */
 START_TEST(test_slow)
 {
     struct scene scene;
@@ -358,16 +359,19 @@ START_TEST(test_slow)
     struct transport known = fresh(&s, 0), x = fresh(&s, 1e-6);
     double off = 0, all = 0;
     ck_assert_int_eq(dense_solve(&s.operator, & known), 0);
+    for (uint32_t i = 0; _i > 0 && i < s.hierarchy.count; i++)
+        x.value[i] = _i * 100 * known.value[i];
     ck_assert_int_eq(transport_solve(&s.operator, & x), 0);
     for (uint32_t i = 0; i < s.hierarchy.count; i++)
         if (s.hierarchy.elements[i].vertices && !s.hierarchy.elements[i].children) {
             off += s.hierarchy.elements[i].area * fabs(x.value[i] - known.value[i]);
             all += s.hierarchy.elements[i].area * known.value[i];
         }
-    printf("%d sweeps, bound %.1e, off by %.1e\n", x.sweeps, x.bound, off / all);
+    printf("from %d times the light %d sweeps, bound %.1e, off by %.1e\n", _i * 100, x.sweeps,
+           x.bound, off / all);
     ck_assert_int_eq(x.converged, 1);
     ck_assert_double_le(off, x.bound * all);
-    ck_assert_int_lt(x.sweeps, 300);
+    ck_assert_int_lt(x.sweeps, 60);
     discard(&known);
     discard(&x);
     solve_close(&s);
@@ -427,7 +431,7 @@ int main(void)
     TCase *c = tcase_create("solvers");
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, test_solvers, 0, CASES);
-    tcase_add_test(c, test_slow);
+    tcase_add_loop_test(c, test_slow, 0, 2);
     tcase_add_loop_test(c, test_threads, 0, 4);
     tcase_add_test(c, test_too_many);
     suite_add_tcase(suite, c);
