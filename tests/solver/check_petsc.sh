@@ -67,14 +67,15 @@ for scene in "$cube:2" white.obj:25; do
     check "${scene%:*}: B is not ${scene#*:}" awk -F, -v b="${scene#*:}" \
         'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^B/) at[i] } NR > 1 { n++; for (i in at) { d = $i - b; if (d < 0) d = -d; if (d > 1e-9 * b) exit 1 } } END { exit n != 6 }' petsc.csv
 done
-# Where light is reflected many times, a Krylov method takes fewer sweeps by far: one wall of a whiter cube shines.
+# Where light is reflected many times, a Krylov method takes fewer sweeps by far: one wall of a whiter cube shines. 31: a third of
+# what Gauss-Seidel took before its guesses were good.
 sed 's/^Kd .*/Kd .99 .99 .99/; s/^newmtl .*/newmtl lamp_1s/' white.mtl >lamp.mtl
 { cat lamp.mtl; sed 's/^newmtl .*/newmtl wall_1s/; s/^Ke .*/Ke 0 0 0/' lamp.mtl; } >lit.mtl
 awk '/^mtllib/ { $0 = "mtllib lit.mtl" } /^usemtl/ { $0 = "usemtl lamp_1s" } { print } /^f / && !n++ { print "usemtl wall_1s" }' white.obj >lit.obj
 solve sweeps lit.obj --tolerance 1e-8 --no-correct --no-errors
 solve petsc lit.obj --tolerance 1e-8 --no-correct --no-errors --solver petsc
 check "white: $(value petsc.json iterations) sweeps, Gauss-Seidel $(value sweeps.json iterations)" \
-    [ $((3 * $(value petsc.json iterations))) -lt "$(value sweeps.json iterations)" ]
+    [ "$(value petsc.json iterations)" -lt 31 -a "$(value petsc.json iterations)" -lt "$(value sweeps.json iterations)" ]
 check "white: other light" light sweeps.csv petsc.csv 2e-7
 
 # ---- what PETSc's options say
