@@ -206,7 +206,7 @@ static int is_asked(const struct asking *a, size_t i)
            && !(a->before && is_open_to_ask(a, a->before[i]));
 }
 
-/* Of a row, the share that convex solids stand on. */
+/* Of a row, the share that solids stand on. */
 static double share_under_bodies(const struct exchange *x, uint32_t i)
 {
     const struct exchange_tree *t = &x->tree;
@@ -216,12 +216,18 @@ static double share_under_bodies(const struct exchange *x, uint32_t i)
     return covered / x->areas.area[i];
 }
 
-/* Rays say what is covered to half a row of so many points; what convex solids cover is known, also
- * where it falls between them. */
+/* Rays say what is covered to half a row of so many points; what solids cover is known, also where
+ * it falls between them. More than rays found is known of points in something solid on which lies
+ * something else: rays from there end between the two, and do not tell that they met backs alone.
+ * The backs that they did meet were there. */
 static void know_covered(struct exchange_loss *way, double covered, int side)
 {
-    if (covered > 0 && fabs(way->covered - covered) < 0.5 / side)
-        way->covered = covered;
+    const double off = 0.5 / side, more = covered - way->covered;
+    if (!(covered > 0) || more <= -off)
+        return;
+    way->covered = covered;
+    if (more >= off)
+        way->backs = way->backs - more > off ? way->backs - more : 0;
 }
 
 /* A row that lacks more than the tolerance, and than one point stands for, where few points show no

@@ -181,6 +181,34 @@ START_TEST(test_angle)
 }
 END_TEST
 
+/* What a solid covers is told as that, also where another lies on that solid: rays from within end
+ * between the two, and know nothing. The room is closed, so none of its light goes to backs. */
+START_TEST(test_what_is_covered)
+{
+    static const double low[3] = {0.9, 0.9, 0.3}, high[3] = {2.2, 2.2, 0.6};
+    const struct RadExchangeOptions how = {.tolerance = 3e-4};
+    double f[FACES];
+    clear();
+    room(4, 2, _i ? 4 : 3);
+    angle(0, 0.3);
+    box(low, high, 0, 0);
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 1});
+    RadScene s = scene_on(device);
+    RadExchange exchange = radNewExchange(s, NULL, &how);
+    ck_assert_ptr_nonnull(exchange);
+    for (uint32_t i = 0; i < scene.faces; i++) {
+        struct RadExchangeLoss loss;
+        const double sum = radGetExchangeRow(exchange, i, f);
+        ck_assert_int_eq(radGetExchangeLoss(exchange, i, &loss), 0);
+        ck_assert_double_eq_tol(loss.backs, 0, 1e-3);
+        ck_assert_double_eq_tol(loss.covered, 1 - sum, 1e-3);
+    }
+    radReleaseExchange(exchange);
+    radReleaseScene(s);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* An inner room whose walls lie in an outer box's planes, all of them or four or two. */
 START_TEST(test_house)
 {
@@ -309,6 +337,7 @@ int main(void)
     tcase_add_test(t, test_post);
     tcase_add_test(t, test_pipe);
     tcase_add_loop_test(t, test_angle, 0, 2);
+    tcase_add_loop_test(t, test_what_is_covered, 0, 2);
     tcase_add_loop_test(t, test_house, 0, under_sanitizers() ? 1 : 3);
     tcase_add_loop_test(t, test_meshed_house, 0, under_sanitizers() ? 4 : 14);
     suite_add_tcase(suite, t);
