@@ -201,6 +201,8 @@ links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/
 light goes through solids | runtime/engine/sight_cubature.c | s/l->ends.joined && bodies_hold/0 * l->ends.joined \&\& bodies_hold/ | runtime/check_stacked
 what is not convex covers nothing | runtime/engine/exchange_contacts.c | s/return told > 0 \&\&/return told < 0 \&\&/ | runtime/check_stacked
 what rays take for backs | runtime/engine/exchange.c | s/if (more >= off)/if (0 * more > off)/; s/more <= -off/fabs(more) >= off/ | runtime/check_stacked
+what reaches in tells that nothing is solid | runtime/engine/exchange_contacts.c | s/MOST_BACKS = 0.5/MOST_BACKS = 0.75/ | runtime/check_stacked
+solids that are none hold nothing | runtime/hierarchy/body_feet.c | s/^ *.. is_over(.*$// | runtime/check_stacked
 houses are solid | runtime/hierarchy/body_feet.c | s/lines > 0 ? 0 : 1/1/ | runtime/check_stacked
 tubes are solid | runtime/hierarchy/body_feet.c | s/foot->face != NO_FACE ? foot->area : 0/foot->area/; s/return foot->face != NO_FACE \&\&/return/ | runtime/check_stacked
 points on the larger face | runtime/engine/exchange_sight.c | s/from_r = apart ?/from_r = 0 * apart ?/ | runtime/check_slots

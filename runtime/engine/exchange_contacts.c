@@ -25,6 +25,11 @@ static const double RISE[RISES] = {1, 1.0 / 8, 1.0 / 32};
  * what lies there has something of it. Chosen. */
 static const double PLACE = 8;
 
+/* Of the rays, so many meet backs within something solid: all do, but for those to the fronts of
+ * what reaches into it, as a box by a micrometre into its neighbour; and outside of what is closed
+ * none does. Midway; chosen. */
+static const double MOST_BACKS = 0.5;
+
 /* Does a face that looks against n lie where a ray met one that looks along it? */
 static int is_double(const struct hierarchy *h, const double at[3], const double n[3])
 {
@@ -67,7 +72,7 @@ static int is_solid_over(const struct exchange_tree *t, const struct element *e,
         told++;
         backs += fate == RAY_MEETS_BACK;
     }
-    return told > 0 && CONTACT_RAYS * backs >= CONTACT_BACKS * told;
+    return told > 0 && backs >= MOST_BACKS * told;
 }
 
 int exchange_contacts_find(struct exchange_tree *t)

@@ -68,7 +68,7 @@ int bodies_hold(const struct bodies *bodies, const struct hierarchy *h, uint32_t
 
 /* Does a body that stands on it with a face touch another element, which looks into it there, but
  * for so much (m), or hold some of it? Something solid that is no body may wherever the other one
- * touches any. */
+ * touches any, or is over where it stands. */
 int bodies_join(const struct bodies *bodies, const struct hierarchy *h, uint32_t element,
                 const struct element *other, double near);
 

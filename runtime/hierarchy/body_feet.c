@@ -237,20 +237,42 @@ static int holds(const struct bodies *b, const struct hierarchy *h, const struct
     return inside;
 }
 
-/* Does no side part an element from a body by more than that, and does it not look away where it
- * lies on one? */
+/* Does a plane not part an element from what is behind it by more than that, and does it not look
+ * away where it lies on it? */
+static int is_within(const struct element *e, const double at[3], const double n[3], double near)
+{
+    double high = -INFINITY, low = INFINITY;
+    polygon_reach((const double(*)[3])e->vertex, e->vertices, at, n, &high, &low);
+    return low < -near || (low <= near && dot3(e->normal, n) < 0);
+}
+
+/* Does no side part an element from a body? */
 static int is_joined(const struct bodies *b, const struct hierarchy *h, const struct body *body,
                      const struct element *e, double near)
 {
     const double *at, *n;
     int joined = 1;
     for (uint32_t i = 0; i < (uint32_t)body->faces + body->lids && joined; i++) {
-        double high = -INFINITY, low = INFINITY;
         side_of(b, h, body, i, &at, &n);
-        polygon_reach((const double(*)[3])e->vertex, e->vertices, at, n, &high, &low);
-        joined = low < -near || (low <= near && dot3(e->normal, n) < 0);
+        joined = is_within(e, at, n, near);
     }
     return joined;
+}
+
+/* Does no plane upright on an edge of a foot part an element from what is over that? */
+static int is_over(const struct element *foot, const struct element *e, double near)
+{
+    int over = 1;
+    for (int i = 0; i < foot->vertices && over; i++) {
+        double edge[3], out[3];
+        sub3(edge, foot->vertex[i + 1 < foot->vertices ? i + 1 : 0], foot->vertex[i]);
+        cross3(out, edge, foot->normal);
+        const double size = length3(out);
+        for (int k = 0; k < 3 && size > 0; k++)
+            out[k] /= size;
+        over = is_within(e, foot->vertex[i], out, near);
+    }
+    return over;
 }
 
 /* Does a face lie over a point that is in its plane, or near it? */
@@ -313,6 +335,7 @@ int bodies_join(const struct bodies *b, const struct hierarchy *h, uint32_t elem
         if (stands(&b->feet[i])
             && (b->feet[i].body == BODY_NONE
                     ? is_touched(b, h->face_element[other->face])
+                          || is_over(&h->elements[b->feet[i].face], other, near)
                     : is_joined(b, h, &b->body[b->feet[i].body], other, near)))
             return 1;
     return 0;
