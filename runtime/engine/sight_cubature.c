@@ -316,9 +316,8 @@ static double missed(const struct looking *l, int at)
     sight_eyes_add(&eyes, &node->piece);
     for (int q = 0; q < QUARTERS && node->quarters; q++)
         sight_eyes_add(&eyes, &quarters[q].piece);
-    return fmin(sight_missed(&eyes, &node->piece, l->ends.to, l->ends.tree, list_of(l, at),
-                             node->count, l->scratch->known),
-                node->value);
+    return sight_missed(&eyes, &node->piece, l->ends.to, l->ends.tree, list_of(l, at), node->count,
+                        l->scratch->known, node->value);
 }
 
 /* Hold a piece against its quarters, which count from now on. */

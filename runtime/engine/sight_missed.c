@@ -92,21 +92,21 @@ static int is_beyond(const struct element *face, const struct element *from,
 
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
-                    const uint32_t *faces, int count, struct sight_known *known)
+                    const uint32_t *faces, int count, struct sight_known *known, double most)
 {
     struct shaft shaft;
     double sum = 0;
-    if (!shaft_open(&shaft, piece, to, &tree->host))
+    if (!(most > 0) || !shaft_open(&shaft, piece, to, &tree->host))
         return 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count && sum < most; i++) {
         const struct element *face = &tree->h.elements[faces[i]];
-        if (is_seen(eyes, face, piece->radius) || is_beyond(face, piece, to, tree->h.flat)
-            || is_beyond(face, to, piece, tree->h.flat)
+        if (is_beyond(face, piece, to, tree->h.flat) || is_beyond(face, to, piece, tree->h.flat)
+            || is_seen(eyes, face, piece->radius)
             || !candidates_meets(&tree->h, &shaft, tree->host.ray_offset, faces[i]))
             continue;
         sum += fmin(fmin(sight_exchange_through(tree, faces[i], piece, known),
                          sight_exchange_through(tree, faces[i], to, known)),
                     exchange_in_gap(face, piece));
     }
-    return sum;
+    return fmin(sum, most);
 }

@@ -25,9 +25,9 @@ void sight_eyes_add(struct sight_eyes *eyes, const struct element *piece);
 
 /* At most what of the exchange of a piece and the polygon `to`, which the eyes' sight was opened
  * for, passes through those of the faces that throw a shade on fewer than enough of the points
- * (m2). */
+ * (m2); no more than `most` is told. */
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
-                    const uint32_t *faces, int count, struct sight_known *known);
+                    const uint32_t *faces, int count, struct sight_known *known, double most);
 
 #endif
