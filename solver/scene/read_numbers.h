@@ -73,6 +73,22 @@ static inline uint64_t bytes_number(const void *from, unsigned size, int big_end
     return number;
 }
 
+/* The number that these bytes are: of kind F a float, I a whole one with a sign, else without. */
+static inline double typed_number(const void *from, char kind, unsigned size, int big_endian)
+{
+    const uint64_t bits = bytes_number(from, size, big_endian);
+    const uint64_t sign = (uint64_t)1 << (8 * size - 1);
+    if (kind == 'F') {
+        const uint32_t low = (uint32_t)bits;
+        float single;
+        double value;
+        memcpy(&single, &low, sizeof single);
+        memcpy(&value, &bits, sizeof value);
+        return size == 4 ? (double)single : value;
+    }
+    return kind == 'I' && bits & sign ? -(double)(~bits & (sign - 1)) - 1 : (double)bits;
+}
+
 /* A text that was cut ends within a line, as a rule. */
 static inline void warn_of_cut(const char *path, uint32_t line, const char *text, size_t size)
 {

@@ -12,6 +12,11 @@
     "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'>\n<Piece><Points><DataArray " \
     "format='binary'>"
 
+#define APPENDED(offset, encoding) \
+    "<VTKFile type='PolyData'>\n<Piece><Points><DataArray format='appended' offset='" offset \
+    "'/></Points></Piece><AppendedData encoding='" encoding "'>"
+#define BEHIND "</AppendedData></VTKFile>"
+
 START_TEST(test_refusals)
 {
     static const struct {
@@ -99,7 +104,17 @@ START_TEST(test_refusals)
         {"a.vtu", ZLIB "AQAAAAQAAAAAAAAABAAAAAA=</DataArray>", ":2: error: the blocks of"},
         {"a.vtu", ZLIB "AQAA</DataArray>", ":2: error: an array is no base64"},
         {"a.vtu", GRID "<Points>\n", ":3: error: not well-formed XML"},
-        {"a.vtu", GRID "<Points><DataArray format='appended'/>", ":2: error: an array of format"},
+        {"a.vtu", GRID "<Points><DataArray format='binhex'/>", ":2: error: an array of format"},
+        {"a.vtu", GRID "<Points><DataArray format='appended' offset='7'/>",
+         ":2: error: an appended array of offset 7 is not all there"},
+        {"a.vtu", APPENDED("-1", "raw") "_\4\1\1\1abcd" BEHIND, ":2: error: an appended array"},
+        {"a.vtu", APPENDED("9", "raw") "_\4\1\1\1abcd" BEHIND, ":2: error: an appended array"},
+        {"a.vtu", APPENDED("0", "raw") "_\4\1\1\1abcd" BEHIND, ":2: error: an appended array"},
+        {"a.vtu", APPENDED("0", "base64") "_BAAAA" BEHIND, ":2: error: an appended array"},
+        {"a.vtu", APPENDED("0", "base64") "_/////w==AAAA" BEHIND, ":2: error: an appended arr"},
+        {"a.vtu", APPENDED("0", "base64") "_BAAA*A==AAAA" BEHIND, ":2: error: an appended arr"},
+        {"a.vtu", APPENDED("0", "raw") "abcd" BEHIND, "error: <AppendedData> does not begin with"},
+        {"a.vtu", APPENDED("0", "raw") "_abcd", "error: <AppendedData> does not begin with"},
         {"a.vtu", GRID "<Points><DataArray>1 2\n 3x</DataArray>", ":2: error: '3x' is not a num"},
         {"a.vtu", GRID "<Points><DataArray>1 2</DataArray></Points></Piece>",
          ":2: error: points have 2 numbers"},
