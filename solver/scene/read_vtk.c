@@ -1,9 +1,10 @@
-/* read_vtk.c - see read_meshes.h: legacy VTK files as text, POLYDATA and UNSTRUCTURED_GRID.
+/* read_vtk.c - see read_meshes.h: legacy VTK files as text or binary, POLYDATA and
+ * UNSTRUCTURED_GRID.
  *
- * Numbers flow over lines. Cells are, up to version 4, a count and as many points each, from
- * version 5 on offsets and points of all. What POINT_DATA and CELL_DATA begin is data on points and
- * cells up to the file's end.
- * [VTK file formats, Simple Legacy Formats]
+ * Numbers of a text flow over lines; binary ones stand behind the line that says what they are,
+ * high bytes first, and of lines only that one is counted. Cells are, up to version 4, a count and
+ * as many points each, from version 5 on offsets and points of all. What POINT_DATA and CELL_DATA
+ * begin is data on points and cells up to the file's end. [VTK file formats, Simple Legacy Formats]
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
@@ -25,11 +26,27 @@ struct vtk {
     struct text_lines lines;
     double version;
     int grid, has_points; /* 1: UNSTRUCTURED_GRID */
-    double *numbers;      /* points of the cells */
+    int binary;
+    const struct number_type *type; /* of the bytes that come now; NULL: words */
+    double *numbers;                /* points of the cells */
     size_t number_count, number_capacity;
     struct cell *cell; /* of CELLS, which wait for their types */
     size_t cell_count, cell_capacity;
 };
+
+/* Numbers of a binary file. vtkIdType is written as int, though it takes 8 bytes in memory. */
+static const struct number_type {
+    const char *name;
+    char kind; /* as of typed_number; 0: no numbers */
+    unsigned size;
+} number_types[] = {
+    {"char", 'I', 1},          {"signed_char", 'I', 1},    {"unsigned_char", 'U', 1},
+    {"short", 'I', 2},         {"unsigned_short", 'U', 2}, {"int", 'I', 4},
+    {"unsigned_int", 'U', 4},  {"vtkIdType", 'I', 4},      {"long", 'I', 8},
+    {"unsigned_long", 'U', 8}, {"vtktypeint64", 'I', 8},   {"vtktypeuint64", 'U', 8},
+    {"float", 'F', 4},         {"double", 'F', 8},         {"bit", 0, 0},
+    {"string", 0, 0}};
+enum { OF_INT = 5 };
 
 /* The next word, which may be on another line. Returns 0, or -1 at the end, after a message when
  * something is wanted. */
@@ -43,9 +60,56 @@ static int next_value(struct vtk *v, const char *wanted)
     return 0;
 }
 
+/* So many bytes of a binary file; NULL after a message. */
+static const char *take_bytes(struct vtk *v, const char *what, size_t size)
+{
+    struct text_lines *t = &v->lines;
+    const char *at = t->next;
+    if (size <= (size_t)(t->end - t->next)) {
+        t->next += size;
+        return at;
+    }
+    report_error(v->mesh.path, t->number, "ends before %s; the file is cut, export it again", what);
+    return NULL;
+}
+
+/* Numbers of the type at hand come behind this line, if the file is binary. */
+static int begin_numbers(struct vtk *v)
+{
+    struct text_lines *t = &v->lines;
+    for (size_t i = 0; i < sizeof number_types / sizeof *number_types && v->binary; i++)
+        if (word_is_any_case(t, number_types[i].name)) {
+            v->type = &number_types[i];
+            t->word_end = t->line_end;
+            return 0;
+        }
+    return v->binary ? report_error(v->mesh.path, t->number,
+                                    "numbers of type '%.*s', which is not known; write int, float "
+                                    "or double",
+                                    quoted_length(t->word, t->word_end), t->word)
+                     : 0;
+}
+
+static void begin_ints(struct vtk *v)
+{
+    if (!v->binary)
+        return;
+    v->lines.word_end = v->lines.line_end;
+    v->type = &number_types[OF_INT];
+}
+
 static int take_number(struct vtk *v, const char *what, double *x)
 {
-    return next_value(v, what) ? -1 : mesh_number(&v->mesh, &v->lines, what, x);
+    if (!v->type)
+        return next_value(v, what) ? -1 : mesh_number(&v->mesh, &v->lines, what, x);
+    const char *at = take_bytes(v, what, v->type->size);
+    if (!at)
+        return -1;
+    *x = typed_number(at, v->type->kind, v->type->size, 1);
+    return fabs(*x) <= (double)FLT_MAX
+               ? 0
+               : report_error(v->mesh.path, v->lines.number,
+                              "%s is not finite; write finite numbers", what);
 }
 
 static int take_count(struct vtk *v, const char *what, size_t *count)
@@ -82,14 +146,11 @@ static int read_head(struct vtk *v)
     t->word_end = t->line_end; /* a title may have words */
     if (next_value(v, "ASCII"))
         return -1;
-    if (word_is_any_case(t, "BINARY"))
-        return report_error(v->mesh.path, t->number,
-                            "a binary VTK file; write it as ASCII (ParaView: Save Data, File Type "
-                            "ASCII)");
-    return word_is_any_case(t, "ASCII") ? 0
-                                        : report_error(v->mesh.path, t->number,
-                                                       "neither ASCII nor BINARY; the file is "
-                                                       "damaged, export it again");
+    v->binary = word_is_any_case(t, "BINARY");
+    return v->binary || word_is_any_case(t, "ASCII")
+               ? 0
+               : report_error(v->mesh.path, t->number,
+                              "neither ASCII nor BINARY; the file is damaged, export it again");
 }
 
 static int read_points(struct vtk *v)
@@ -103,6 +164,8 @@ static int read_points(struct vtk *v)
     if (take_count(v, "the number of points", &count) || next_value(v, "float or double"))
         return -1;
     v->mesh.file->single_precision = word_is_any_case(&v->lines, "float");
+    if (begin_numbers(v))
+        return -1;
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++)
             if (take_number(v, "a coordinate", &p[k]))
@@ -110,6 +173,7 @@ static int read_points(struct vtk *v)
         if (scene_file_add_position(v->mesh.file, p))
             return scene_file_no_memory(v->mesh.path);
     }
+    v->type = NULL;
     return 0;
 }
 
@@ -134,7 +198,7 @@ static int read_offsets(struct vtk *v, size_t offsets, size_t size)
     const size_t start = v->number_count;
     if (!offsets && !size)
         return 0;
-    if (take_word(v, "OFFSETS") || next_value(v, "a type"))
+    if (take_word(v, "OFFSETS") || next_value(v, "a type") || begin_numbers(v))
         return -1;
     for (size_t i = 0; i < offsets; i++) {
         if (add_number(v, "an offset"))
@@ -150,11 +214,13 @@ static int read_offsets(struct vtk *v, size_t offsets, size_t size)
                         v->lines.number))
             return -1;
     }
-    if (take_word(v, "CONNECTIVITY") || next_value(v, "a type"))
+    v->type = NULL;
+    if (take_word(v, "CONNECTIVITY") || next_value(v, "a type") || begin_numbers(v))
         return -1;
     for (size_t i = 0; i < size; i++)
         if (add_number(v, "a cell's point"))
             return -1;
+    v->type = NULL;
     return 0;
 }
 
@@ -162,6 +228,7 @@ static int read_lists(struct vtk *v, size_t count, size_t size)
 {
     const uint32_t line = v->lines.number;
     size_t corners, left = size;
+    begin_ints(v);
     for (size_t i = 0; i < count; i++) {
         if (take_count(v, "a cell's number of points", &corners))
             return -1;
@@ -177,6 +244,7 @@ static int read_lists(struct vtk *v, size_t count, size_t size)
             if (add_number(v, "a cell's point"))
                 return -1;
     }
+    v->type = NULL;
     return left ? report_error(v->mesh.path, line,
                                "%zu cells take %zu numbers less than are counted; the file is "
                                "damaged, export it again",
@@ -217,11 +285,47 @@ static int read_types(struct vtk *v)
         return report_error(v->mesh.path, v->lines.number,
                             "%zu types of %zu cells; the file is damaged, export it again", count,
                             v->cell_count);
+    begin_ints(v);
     for (size_t i = 0; i < count; i++)
         if (take_number(v, "a cell's type", &type) || end_cell(v, &v->cell[i], type))
             return -1;
+    v->type = NULL;
     v->cell_count = v->number_count = 0;
     return 0;
+}
+
+/* Strings of a binary file: the first two bits say of how many bytes the length is. */
+static int pass_strings(struct vtk *v, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct text_lines *t = &v->lines;
+        const unsigned first = t->next < t->end ? (unsigned char)*t->next : 0,
+                       size = 8 >> (first >> 6);
+        const char *at = take_bytes(v, "a string", size);
+        const uint64_t bits = (uint64_t)1 << (8 * size - 2);
+        if (!at || !take_bytes(v, "a string", (size_t)(bytes_number(at, size, 1) & (bits - 1))))
+            return -1;
+    }
+    return 0;
+}
+
+static int pass_values(struct vtk *v, size_t count)
+{
+    if (!v->binary) {
+        for (size_t i = 0; i < count; i++)
+            if (next_value(v, "a value"))
+                return -1;
+        return 0;
+    }
+    if (begin_numbers(v))
+        return -1;
+    const struct number_type *type = v->type;
+    v->type = NULL;
+    if (strcmp(type->name, "string") == 0)
+        return pass_strings(v, count);
+    return take_bytes(v, "a value", type->kind ? count * type->size : count / 8 + (count % 8 > 0))
+               ? 0
+               : -1;
 }
 
 /* FIELD name n, then n times: name, components, tuples, type, values. */
@@ -234,10 +338,10 @@ static int pass_field(struct vtk *v)
         if (next_value(v, "an array's name") || take_count(v, "components", &components)
             || take_count(v, "tuples", &tuples) || next_value(v, "a type"))
             return -1;
-        for (size_t j = 0; j < tuples; j++)
-            for (size_t k = 0; k < components; k++)
-                if (next_value(v, "a value"))
-                    return -1;
+        /* where a product is too large, more than any file has */
+        const size_t most = v->binary ? 8 * (size_t)(v->lines.end - v->lines.next) + 8 : SIZE_MAX;
+        if (pass_values(v, components && tuples > most / components ? most : components * tuples))
+            return -1;
     }
     return 0;
 }

@@ -389,6 +389,69 @@ static void write_vtk_5(void)
     put("POINT_DATA 16\n");
 }
 
+static void put_ints(int size, int count, const int *ints)
+{
+    for (int i = 0; i < count; i++)
+        put_bytes((uint64_t)(int64_t)ints[i], size);
+}
+
+/* Before what is read stand data of other kinds, which are passed over. */
+static void put_binary_vtk(const char *version, const char *kind)
+{
+    high_first = 1;
+    put("# vtk DataFile Version %s\na # room\nBINARY\nDATASET %s\nFIELD FieldData 3\n", version,
+        kind);
+    put("names 1 2 string\n\xC3%s", "a\nb");
+    put_bytes(0x8003, 2); /* 3 again, of 14 bits */
+    put("c d\nTIME 2 1 double\n");
+    put_doubles(point[6], 2);
+    put("\nMASK 3 3 bit\n");
+    put_bytes(0x0a0a, 2);
+    put("\nPOINTS %d double\n", POINTS);
+    for (int i = 0; i < POINTS; i++)
+        put_doubles(point[i], 3);
+    put("\nMETADATA\nINFORMATION 0\n\n");
+}
+
+static void write_vtk_3_binary(void)
+{
+    int numbers = 2;
+    for (int i = 0; i < FACES; i++)
+        numbers += 1 + corners(i);
+    put_binary_vtk("3.0", "UNSTRUCTURED_GRID");
+    put("CELLS %d %d\n", FACES + 1, numbers);
+    put_ints(4, 2, (const int[]){1, 3});
+    for (int i = 0; i < FACES; i++) {
+        put_bytes((uint64_t)corners(i), 4);
+        put_ints(4, corners(i), face[i]);
+    }
+    put("\nCELL_TYPES %d\n", FACES + 1);
+    put_bytes(1, 4);
+    for (int i = 0; i < FACES; i++)
+        put_bytes(corners(i) == 3 ? 5 : i % 2 ? 9 : 7, 4);
+    put("\nCELL_DATA %d\nSCALARS q float\n", FACES + 1);
+    high_first = 0;
+}
+
+static void write_vtk_5_binary(void)
+{
+    int sum = 0;
+    put_binary_vtk("5.1", "POLYDATA");
+    put("VERTICES 2 1\nOFFSETS vtktypeint64\n");
+    put_ints(8, 2, (const int[]){0, 1});
+    put("\nCONNECTIVITY vtkIdType\n");
+    put_bytes(5, 4);
+    put("\nPOLYGONS %d %d\nOFFSETS unsigned_char\n", FACES + 1, 4 * FACES - 2);
+    put_bytes(0, 1);
+    for (int i = 0; i < FACES; i++)
+        put_bytes((uint64_t)(sum += corners(i)), 1);
+    put("\nCONNECTIVITY vtktypeint64\n");
+    for (int i = 0; i < FACES; i++)
+        put_ints(8, corners(i), face[i]);
+    put("\n");
+    high_first = 0;
+}
+
 static void put_array(const char *type, const char *name)
 {
     put("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type,
@@ -619,6 +682,8 @@ static const struct {
     {"free.BDF", write_nastran_free, "PSHELL 7", "PSHELL 9"},
     {"three.vtk", write_vtk_3, "DefaultMaterial", "DefaultMaterial"},
     {"five.vtk", write_vtk_5, "DefaultMaterial", "DefaultMaterial"},
+    {"bytes_3.vtk", write_vtk_3_binary, "DefaultMaterial", "DefaultMaterial"},
+    {"bytes_5.vtk", write_vtk_5_binary, "DefaultMaterial", "DefaultMaterial"},
     {"room.vtu", write_vtu, "DefaultMaterial", "DefaultMaterial"},
     {"bytes.vtu", write_vtu_base64, "DefaultMaterial", "DefaultMaterial"},
     {"zlib.vtu", write_vtu_zlib, "DefaultMaterial", "DefaultMaterial"},
@@ -765,11 +830,11 @@ END_TEST
  * lost; so is one whose counts are huge. */
 START_TEST(test_cut_bytes)
 {
-    static void (*const writers[])(void) = {write_gmsh_2_binary, write_gmsh_4_binary,
-                                            write_vtu_zlib,      write_vtu_raw,
-                                            write_vtu_raw_zlib,  write_vtu_letters_zlib};
-    static const char *const names[] = {"cut.msh", "cut.msh", "cut.vtu",
-                                        "cut.vtu", "cut.vtu", "cut.vtu"};
+    static void (*const writers[])(void) = {
+        write_gmsh_2_binary, write_gmsh_4_binary,    write_vtu_zlib,    write_vtu_raw,
+        write_vtu_raw_zlib,  write_vtu_letters_zlib, write_vtk_5_binary};
+    static const char *const names[] = {"cut.msh", "cut.msh", "cut.vtu", "cut.vtu",
+                                        "cut.vtu", "cut.vtu", "cut.vtk"};
     static char whole[TEXT];
     text.size = 0;
     writers[_i]();
@@ -894,7 +959,7 @@ int main(void)
     tcase_add_test(t, test_systems_of_nastran);
     tcase_add_loop_test(t, test_short_lines_of_nastran, 0, 6);
     tcase_add_loop_test(t, test_defaults_of_nastran, 0, 4);
-    tcase_add_loop_test(t, test_cut_bytes, 0, 6);
+    tcase_add_loop_test(t, test_cut_bytes, 0, 7);
     tcase_add_test(t, test_view3d_surfaces);
     tcase_add_test(t, test_polygons_of_vtk);
     tcase_add_test(t, test_curved);

@@ -12,6 +12,7 @@
     "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'>\n<Piece><Points><DataArray " \
     "format='binary'>"
 
+#define BINARY "# vtk DataFile Version 3.0\n\nBINARY\nDATASET POLYDATA\n"
 #define APPENDED(offset, encoding) \
     "<VTKFile type='PolyData'>\n<Piece><Points><DataArray format='appended' offset='" offset \
     "'/></Points></Piece><AppendedData encoding='" encoding "'>"
@@ -75,7 +76,16 @@ START_TEST(test_refusals)
         {"a.bdf", "$\nCQUAD4,1,1,1,2,3\n", ":2: error: 0 where a corner of CQUAD4 belongs"},
         {"a.bdf", "INCLUDE 'b.bdf'\n", ":1: error: INCLUDE is not followed"},
         {"a.vtk", "x\n", ":1: error: no legacy VTK file"},
-        {"a.vtk", "# vtk DataFile Version 3.0\n\nBINARY\n", ":3: error: a binary VTK file; write"},
+        {"a.vtk", "# vtk DataFile Version 3.0\n\nTEXT\n", ":3: error: neither ASCII nor BINARY"},
+        {"a.vtk", BINARY "POINTS 1 float128\n", ":5: error: numbers of type 'float128', which"},
+        {"a.vtk", BINARY "POINTS 4000000000 float\n0123456789ab", ":5: error: ends before a coord"},
+        {"a.vtk", BINARY "POINTS 1 float\n\x7f\xc0\1\1\1\1\1\1\1\1\1\1",
+         ":5: error: a coordinate is not finite"},
+        {"a.vtk", BINARY "FIELD f 1\na 9007199254740991 9007199254740991 double\n01234567",
+         ":6: error: ends before a value"},
+        {"a.vtk", BINARY "FIELD f 1\na 4 9007199254740991 bit\n0", ":6: error: ends before a v"},
+        {"a.vtk", BINARY "FIELD f 1\na 1 9 string\n\x3f\xff\xff\xff\xff\xff\xff\xff",
+         ":6: error: ends before a string"},
         {"a.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\n",
          ":4: error: dataset STRUCTURED_POINTS has no faces"},
         {"a.vtk", POLYDATA "POINTS 4000000000 float\n0 0 0\n", ":6: error: ends before a coord"},
