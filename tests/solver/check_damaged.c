@@ -51,7 +51,9 @@ static const struct {
     {"free.bdf", NULL},       {"three.vtk", NULL},
     {"five.vtk", NULL},       {"strip.vtk", NULL},
     {"room.vtu", NULL},       {"bytes.vtu", NULL},
-    {"room.vtp", NULL},
+    {"room.vtp", NULL},       {"behind.vtp", NULL},
+    {"behind.vtu", NULL},     {"bytes.vtk", NULL},
+    {"bytes.msh", NULL},
 };
 enum { SEEDS = sizeof seeds / sizeof *seeds, ROOM = 1 << 15, FILES = 800 };
 static const long MEGABYTES = 1024;   /* beside what the program itself takes */
