@@ -21,10 +21,12 @@
 static const double SAME_COLOUR = 1e-6;
 
 /* The JSON of a file: all of it, or the first chunk of a GLB: 12 bytes, its length, "JSON". */
-static json_t *read_json(const char *path)
+static json_t *read_json(const char *path, int quiet)
 {
     size_t size;
     char *text = text_file_read(path, &size);
+    if (!text && quiet)
+        return NULL;
     if (!text) {
         report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
         return NULL;
@@ -37,7 +39,7 @@ static json_t *read_json(const char *path)
     }
     json_error_t error;
     json_t *root = json_loadb(from, size, JSON_DISABLE_EOF_CHECK, &error);
-    if (!root)
+    if (!root && !quiet)
         report_error(path, 0, "its JSON cannot be read: %s; export it again", error.text);
     free(text);
     return root;
@@ -124,9 +126,40 @@ static int has_texture(const json_t *material)
            || json_object_get(material, "emissiveTexture");
 }
 
+/* What says nothing of shapes, or what the library reads or refuses itself (Draco). */
+static int is_harmless(const char *extension)
+{
+    static const char *const begins[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
+                                         "MSFT_texture_",  "KHR_lights_",  "KHR_draco_mesh_"};
+    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
+        if (strncmp(extension, begins[i], strlen(begins[i])) == 0)
+            return 1;
+    return 0;
+}
+
+int gltf_check_extensions(const char *path)
+{
+    json_t *root = read_json(path, 1), *name;
+    const char *refused = NULL;
+    size_t i;
+    if (!root) /* the library says what is wrong with it */
+        return 0;
+    json_array_foreach(json_object_get(root, "extensionsRequired"), i,
+                       name) if (json_is_string(name) && !is_harmless(json_string_value(name)))
+        refused = json_string_value(name);
+    json_array_foreach(json_object_get(root, "extensionsUsed"), i,
+                       name) if (json_is_string(name)
+                                 && strcmp(json_string_value(name), "EXT_mesh_gpu_instancing") == 0)
+        refused = json_string_value(name); /* whoever does not know it sees one copy of many */
+    if (refused)
+        report_error(path, 0, "it needs %.64s, which is not read; export it without", refused);
+    json_decref(root);
+    return refused ? -1 : 0;
+}
+
 int gltf_materials(struct scene_file *f, const char *path, int quiet)
 {
-    json_t *root = read_json(path);
+    json_t *root = read_json(path, 0);
     if (!root)
         return -1;
     const json_t *materials = json_object_get(root, "materials");

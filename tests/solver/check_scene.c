@@ -895,6 +895,30 @@ START_TEST(test_gltf)
 }
 END_TEST
 
+/* Numbers of 16 bits would be read as floats, many copies as one; a colour's index of refraction
+ * is nobody's need. */
+START_TEST(test_gltf_extensions)
+{
+    static const struct {
+        const char *list, *name;
+        int result;
+    } cases[] = {{"Required", "KHR_mesh_quantization", -1},
+                 {"Required", "EXT_meshopt_compression", -1},
+                 {"Used", "EXT_mesh_gpu_instancing", -1},
+                 {"Required", "KHR_materials_ior", 0},
+                 {"Used", "KHR_mesh_quantization", 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[2048], more[2300];
+        struct scene_file f;
+        snprintf(text, sizeof text, GLTF, "false");
+        snprintf(more, sizeof more, "{\"extensions%s\":[\"%s\"],%s", cases[i].list, cases[i].name,
+                 text + 1);
+        ck_assert_int_eq(scene_file_read(&f, write_text("x.gltf", more), NULL), cases[i].result);
+        scene_file_free(&f);
+    }
+}
+END_TEST
+
 /* What the lamp emits, and what faces without a material reflect. */
 START_TEST(test_gltf_materials)
 {
@@ -1278,6 +1302,7 @@ int main(void)
     tcase_add_test(t, test_errors);
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);
+    tcase_add_test(t, test_gltf_extensions);
     tcase_add_test(t, test_gltf_materials);
     tcase_add_test(t, test_ply);
     tcase_add_test(t, test_ply_strips);
