@@ -3,8 +3,9 @@
  *
  * A card is eight fields of 8 characters behind its name, with a `*` four of 16, with a comma
  * fields of any width; further lines continue it. Points may be in coordinate systems of their own
- * (nastran_systems.h), which may come behind them: they are placed at the end.
- * [NX Nastran quick reference guide, bulk data entries]
+ * (nastran_systems.h), which may come behind them: they are placed at the end. What is INCLUDEd has
+ * no lines of its own in what is told at the end, as a scene has those of one file. [NX Nastran
+ * quick reference guide, bulk data entries]
  * SPDX-License-Identifier: MIT */
 #include <ctype.h>
 #include <stdio.h>
@@ -12,6 +13,7 @@
 #include <strings.h>
 
 #include "scene/mesh_parts.h"
+#include "scene/nastran_include.h"
 #include "scene/nastran_systems.h"
 #include "scene/read_meshes.h"
 #include "scene/read_numbers.h"
@@ -19,6 +21,7 @@
 #include "util/report.h"
 
 enum { LINE_FIELDS = 8, STAR_FIELDS = 4, FIELDS = 2 * LINE_FIELDS, WIDEST = 32 };
+enum { DEPTH = 16, FILES = 1000 }; /* that include each other, and in all; chosen */
 
 struct card {
     char name[WIDEST], field[FIELDS][WIDEST]; /* without blanks; shortened to what fits */
@@ -31,7 +34,16 @@ struct nastran {
     struct mesh mesh;
     struct card card; /* the one under way: line 0 when there is none */
     struct nastran_systems systems;
+    int depth; /* of the file under way: 0 the scene's own */
+    int files;
+    int quiet;
 };
+
+/* Of this card, for what is told when all is read. */
+static uint32_t line_kept(const struct nastran *a)
+{
+    return a->depth ? 0 : a->card.line;
+}
 
 static void copy_field(char to[WIDEST], const char *from, const char *end)
 {
@@ -51,7 +63,7 @@ static int line_room(const char *first)
 static int line_fields(const char *line, const char *end, char first[WIDEST],
                        char field[LINE_FIELDS][WIDEST])
 {
-    char flat[81], *comma = memchr(line, ',', (size_t)(end - line));
+    char flat[81] = "", *comma = memchr(line, ',', (size_t)(end - line));
     int count = 0;
     if (comma) {
         copy_field(first, line, comma);
@@ -136,7 +148,7 @@ static int read_grid(struct nastran *a)
     const struct nastran_point point = {.number = number,
                                         .system = (int64_t)system,
                                         .at = {p[0], p[1], p[2]},
-                                        .line = a->card.line,
+                                        .line = line_kept(a),
                                         .by_default = by_default};
     return nastran_point_add(&a->systems, &point) ? scene_file_no_memory(a->mesh.path) : 0;
 }
@@ -160,7 +172,7 @@ static int add_system(struct nastran *a, const struct nastran_system *s)
     case NASTRAN_DONE:
         return 0;
     case NASTRAN_TWICE:
-        return report_error(a->mesh.path, s->line,
+        return report_error(a->mesh.path, a->card.line,
                             "coordinate system %lld is defined twice; the file is damaged, export "
                             "it again",
                             (long long)s->number);
@@ -173,12 +185,12 @@ static int add_system(struct nastran *a, const struct nastran_system *s)
  * C in the plane of x and z. */
 static int read_system_of_points(struct nastran *a)
 {
-    struct nastran_system s = {.kind = a->card.name[5], .line = a->card.line};
+    struct nastran_system s = {.kind = a->card.name[5], .line = line_kept(a)};
     double other;
     if (field_whole(a, 0, "the number", &s.number) || field_number(a, 1, "a system", &other))
         return -1;
     if (!is_whole(other, 1e15))
-        return report_error(a->mesh.path, s.line, "%g where a system of %s belongs", other,
+        return report_error(a->mesh.path, a->card.line, "%g where a system of %s belongs", other,
                             a->card.name);
     s.within = (int64_t)other;
     for (int k = 0; k < 9; k++)
@@ -192,7 +204,7 @@ static int read_system_of_grids(struct nastran *a)
 {
     for (int from = 0; from == 0 || (from == 4 && a->card.fields > 4 && *a->card.field[4]);
          from += 4) {
-        struct nastran_system s = {.kind = a->card.name[5], .by_grids = 1, .line = a->card.line};
+        struct nastran_system s = {.kind = a->card.name[5], .by_grids = 1, .line = line_kept(a)};
         if (field_whole(a, from, "the number", &s.number))
             return -1;
         for (int k = 0; k < 3; k++)
@@ -229,13 +241,13 @@ static int read_shell(struct nastran *a, uint32_t corners)
         return -1;
     if (a->card.fields > 2 + (int)corners && *a->card.field[2 + corners]
         && is_one_of(a->card.name, curved))
-        mesh_curved(&a->mesh, a->card.line);
+        mesh_curved(&a->mesh, line_kept(a));
     for (uint32_t i = 0; i < corners; i++) {
         if (field_number(a, 2 + (int)i, "a corner", &given)
             || field_whole(a, 2 + (int)i, "a corner", &number) || mesh_corner(&a->mesh, number))
             return -1;
     }
-    return mesh_polygon(&a->mesh, corners, material, a->card.line);
+    return mesh_polygon(&a->mesh, corners, material, line_kept(a));
 }
 
 /* What has been gathered of a card is all of it. */
@@ -265,11 +277,8 @@ static int finish_card(struct nastran *a)
         result = read_shell(a, 3);
     else if (is_one_of(c->name, quads))
         result = read_shell(a, 4);
-    else if (strcasecmp(c->name, "INCLUDE") == 0)
-        result =
-            report_error(a->mesh.path, c->line, "INCLUDE is not followed; put all into one file");
     else if (is_one_of(c->name, volumes))
-        mesh_volume(&a->mesh, c->line);
+        mesh_volume(&a->mesh, line_kept(a));
     else
         a->mesh.file->other += (uint32_t)is_one_of(c->name, lines);
     a->card.line = 0;
@@ -301,8 +310,10 @@ static int read_line(struct nastran *a, const char *line, const char *end, uint3
         return -1;
     if (strncasecmp(first, "ENDDATA", 7) == 0)
         return 1;
-    if (strncasecmp(word, "INCLUDE", 7) == 0)
-        snprintf(first, sizeof first, "INCLUDE");
+    if (*first == '=')
+        return report_error(a->mesh.path, number,
+                            "this line repeats the card before it (=), which is not read; write "
+                            "all cards out");
     *c = (struct card){.fields = count, .room = line_room(first), .line = number};
     char *star = strchr(first, '*');
     if (star)
@@ -329,32 +340,73 @@ static size_t bulk_begins(const char *text, size_t size)
     return 0;
 }
 
-int read_nastran(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
+static int read_text(struct nastran *a, const char *text, size_t size);
+
+/* All that the file has, in place of the line. */
+static int follow(struct nastran *a, const char *name, const char **end, const char *text_end,
+                  uint32_t number)
 {
-    struct nastran a = {.mesh = {.file = f, .path = path}};
+    const char *const path = a->mesh.path;
+    struct nastran_include to;
+    if (finish_card(a))
+        return -1;
+    if (a->depth == DEPTH || ++a->files > FILES)
+        return report_error(path, number,
+                            "INCLUDE goes on and on; is it a circle? %d files may include each "
+                            "other, %d in all",
+                            DEPTH, FILES);
+    if (nastran_include(path, number, name, end, text_end, &to))
+        return -1;
+    a->mesh.path = to.path;
+    a->depth++;
+    const int result = read_text(a, to.text, to.size);
+    a->depth--;
+    a->mesh.path = path;
+    free(to.path);
+    free(to.text);
+    return result;
+}
+
+/* Returns 1 behind ENDDATA. */
+static int read_text(struct nastran *a, const char *text, size_t size)
+{
+    const char *const end = text + size, *line = text;
+    uint32_t number = 1;
     int result = 0;
     if (memchr(text, 0, size))
-        return report_error(path, 0, "not a text; export it as Nastran bulk data (not OP2)");
+        return report_error(a->mesh.path, 0,
+                            "not a text; export it as Nastran bulk data (not OP2)");
+    line += size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* a mark of UTF-8 */
     const size_t begins = bulk_begins(text, size);
-    const char *const end = text + size, *line = text + begins;
-    uint32_t number = 1;
+    line = begins ? text + begins : line;
     for (const char *c = text; c < line; c++)
         number += *c == '\n';
-    for (; line < end && !result; number++) {
+    while (line < end && !result) {
         size_t broken;
         const char *last = line_break((char *)(uintptr_t)line, end, &broken);
-        result = read_line(&a, line, last, number);
+        const char *const name = nastran_is_include(line, last);
+        result = name ? follow(a, name, &last, end, number) : read_line(a, line, last, number);
+        if (name) { /* which may end on a further line */
+            for (const char *c = line; c < last; c++)
+                number += *c == '\n';
+            last = line_break((char *)(uintptr_t)last, end, &broken);
+        }
         line = last + (broken ? broken : 1);
+        number++;
     }
-    if (begins && !result && !quiet)
-        report_warning(path, number - 1,
+    const int failed = result < 0 || finish_card(a);
+    if (begins && !result && !failed && !a->quiet)
+        report_warning(a->mesh.path, number - 1,
                        "ends without ENDDATA, which belongs behind BEGIN BULK: is it cut off?");
-    if (result >= 0)
-        result = finish_card(&a) || nastran_systems_place(&a.systems, &a.mesh)
-                         || mesh_finish(&a.mesh, quiet)
-                     ? -1
-                     : 0;
+    return failed ? -1 : result;
+}
+
+int read_nastran(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
+{
+    struct nastran a = {.mesh = {.file = f, .path = path}, .quiet = quiet};
+    const int failed = read_text(&a, text, size) < 0 || nastran_systems_place(&a.systems, &a.mesh)
+                       || mesh_finish(&a.mesh, quiet);
     nastran_systems_free(&a.systems);
     mesh_free(&a.mesh);
-    return result;
+    return failed ? -1 : 0;
 }

@@ -124,7 +124,8 @@ static const struct shape_format *shape_format(const char *path)
         {".off", read_off, ALL_GREY},     {".msh", read_gmsh, NAMED},
         {".vtk", read_vtk, ALL_GREY},     {".vtu", read_vtk_xml, ALL_GREY},
         {".vtp", read_vtk_xml, ALL_GREY}, {".bdf", read_nastran, NAMED},
-        {".nas", read_nastran, NAMED},    {".vs3", read_vs3, EMITTANCES},
+        {".nas", read_nastran, NAMED},    {".dat", read_nastran, NAMED},
+        {".vs3", read_vs3, EMITTANCES},
     };
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
         if (has_extension(path, (const char *const[]){formats[i].ending, NULL}))

@@ -806,6 +806,32 @@ START_TEST(test_short_lines_of_nastran)
 }
 END_TEST
 
+/* Files that a file names, that a file names which it names; of the second quote may be any part.
+ */
+START_TEST(test_includes_of_nastran)
+{
+    static const struct {
+        const char *name, *content;
+    } files[] = {{"points.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\r\nGRID,3,,0.,1.,0."},
+                 {"one shell.bdf", "include points.bdf\nCTRIA3,1,7,1,2,3\nCTRIA3,2,8,1,3,2\n"},
+                 {"all.bdf", "BEGIN BULK\nINCLUDE 'one \r\n  shell.bdf' $ and more\n"
+                             "CTRIA3,3,9,1,2,3\nENDDATA\n"}};
+    struct scene_file f;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        text.size = 0;
+        put("%s", files[i].content);
+        write_text(files[i].name);
+    }
+    ck_assert_int_eq(scene_file_read(&f, in_folder("all.bdf"), &quietly), 0);
+    ck_assert_uint_eq(f.polygon_count, 3);
+    ck_assert_double_eq(f.positions[3 * f.indices[1]], 1);
+    ck_assert_str_eq(f.names[f.polygon_materials[1]], "PSHELL 8");
+    ck_assert_uint_eq(f.lines[1], 0); /* no line of this file */
+    ck_assert_uint_eq(f.lines[2], 4);
+    scene_file_free(&f);
+}
+END_TEST
+
 /* GRDSET is for all points that name no system, wherever it stands; 0 is a name. */
 START_TEST(test_defaults_of_nastran)
 {
@@ -959,6 +985,7 @@ int main(void)
     tcase_add_test(t, test_systems_of_nastran);
     tcase_add_loop_test(t, test_short_lines_of_nastran, 0, 6);
     tcase_add_loop_test(t, test_defaults_of_nastran, 0, 4);
+    tcase_add_test(t, test_includes_of_nastran);
     tcase_add_loop_test(t, test_cut_bytes, 0, 7);
     tcase_add_test(t, test_view3d_surfaces);
     tcase_add_test(t, test_polygons_of_vtk);
