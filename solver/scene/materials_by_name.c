@@ -203,7 +203,8 @@ static int renew(struct materials_by_name *m, const char *path)
     return has_read;
 }
 
-/* Returns 0, -1 after a message, or 1 when it cannot be opened and `may_miss`. */
+/* Returns 0, -1 after a message, or 1 when it cannot be opened and `may_miss`. A path of Windows is
+ * none here: its file is sought beside the scene. */
 static int read_library(void *to, const char *name, size_t length, int may_miss)
 {
     struct materials_by_name *m = to;
@@ -218,6 +219,13 @@ static int read_library(void *to, const char *name, size_t length, int may_miss)
     if (!renew(m, path)) {
         size_t size;
         char *text = text_file_read_regular(path, &size);
+        size_t folder = text ? 0 : length;
+        while (folder && name[folder - 1] != '\\')
+            folder--;
+        if (folder) {
+            free(path);
+            return read_library(to, name + folder, length - folder, may_miss);
+        }
         if (!text && may_miss)
             result = 1;
         else if (!text)

@@ -3,11 +3,10 @@
  * One reader has both: what is a line and what a word in a text is nothing and a number of known
  * size in a binary section. There lines only count up to the section, which messages name.
  * Sections that are not needed are passed over up to their $End. In version 2 an element carries
- * its physical group, in 4.1 the surface that it is on does. A triangle that two groups have is in
- * the file twice in version 2, and once, in the first group, in 4.1. A mesh that is partitioned has
- * pieces in place of its surfaces, each with groups of its own making: it is in the first group of
- * the surface that it was cut from.
- * [Gmsh reference manual, MSH file format]
+ * its physical group, in 4.1 the surface that it is on does. An element that two groups have comes
+ * twice in a row in version 2, and once in 4.1; it is in the first one. A mesh that is partitioned
+ * has pieces in place of its surfaces, each with groups of its own making: it is in the first group
+ * of the surface that it was cut from. [Gmsh reference manual, MSH file format]
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
@@ -35,6 +34,9 @@ struct gmsh {
     int64_t *tags; /* of a block of nodes */
     size_t tag_capacity;
     int nodes, elements; /* sections seen */
+    struct tags {
+        int64_t group, surface;
+    } last; /* of the last face, in version 2 */
 };
 
 /* The next line with words. Returns 0, or -1 after a message at the end. */
@@ -422,23 +424,42 @@ static int read_element(struct gmsh *g, int64_t type, int64_t group)
     return 0;
 }
 
-/* Group: the first tag. */
-static int read_tags(struct gmsh *g, int64_t tags, int64_t *group)
+/* The group, then the surface, then others. */
+static int read_tags(struct gmsh *g, int64_t tags, struct tags *to)
 {
     int64_t tag;
-    *group = 0;
+    *to = (struct tags){0, 0};
     for (int64_t k = 0; k < tags; k++) {
         if (take_whole(g, "a tag", &tag))
             return -1;
-        *group = k ? *group : tag < 0 ? -tag : tag;
+        tag = tag < 0 ? -tag : tag; /* turned */
+        to->group = k == 0 ? tag : to->group;
+        to->surface = k == 1 ? tag : to->surface;
     }
     return 0;
+}
+
+/* Takes back the last face if it is the one before it in another group. */
+static void drop_repeated(struct gmsh *g, const struct tags *tags)
+{
+    struct scene_file *f = g->mesh.file;
+    const uint32_t n = f->polygon_count, size = f->sizes[n - 1];
+    const uint32_t *corners = &f->indices[f->index_count - size];
+    if (n > 1 && f->sizes[n - 2] == size && tags->surface == g->last.surface
+        && tags->group != g->last.group
+        && memcmp(corners - size, corners, size * sizeof *corners) == 0) {
+        f->polygon_count--;
+        f->index_count -= size;
+    } else {
+        g->last = *tags;
+    }
 }
 
 /* In a binary file elements of a kind stand together, behind what they share. */
 static int read_elements_2(struct gmsh *g)
 {
-    int64_t count, type = 0, tags = 0, group, ignored, alike = 0;
+    int64_t count, type = 0, tags = 0, ignored, alike = 0;
+    struct tags of;
     if (need_line(g, "elements") || take_count(g, "elements", &count))
         return -1;
     g->bytes = g->binary;
@@ -452,8 +473,11 @@ static int read_elements_2(struct gmsh *g)
         if (!g->bytes
             && (take_whole(g, "an element's type", &type) || take_count(g, "tags", &tags)))
             return -1;
-        if (read_tags(g, tags, &group) || read_element(g, type, group))
+        const uint32_t faces = g->mesh.file->polygon_count;
+        if (read_tags(g, tags, &of) || read_element(g, type, of.group))
             return -1;
+        if (g->mesh.file->polygon_count > faces)
+            drop_repeated(g, &of);
     }
     return need_end(g, "$EndElements");
 }

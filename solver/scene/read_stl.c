@@ -104,7 +104,7 @@ int read_stl(struct scene_file *f, const char *path, char *text, size_t size, in
 {
     uint32_t count = size >= HEAD ? (uint32_t)bytes_number(text + TITLE, 4, 0) : 0;
     uint64_t needed = HEAD + (uint64_t)TRIANGLE * count;
-    size_t blank = strspn(text, " \t\r\n");
+    size_t blank = strspn(text, "\xEF\xBB\xBF \t\r\n"); /* or a mark of UTF-8 */
     int result;
     f->single_precision = 1;
     if (needed != size && strncasecmp(text + blank, "solid", 5) == 0 && !memchr(text, 0, size)) {

@@ -77,9 +77,14 @@ static void write_gmsh_2(void)
     for (int i = POINTS; i-- > 0;)
         put("%d %g %g %g\n", 3 * i + 5, point[i][0], point[i][1], point[i][2]);
     put("$EndNodes\n$Comments\n$ 1 2 3\n$EndComments\n$Elements\n%d\n1 15 2 0 1 5\n2 1 2 7 1 5 8\n",
-        FACES + 2);
+        FACES + 2 + (FACES + 2) / 3);
     for (int i = 0; i < FACES; i++) {
         put("%d %d 2 %d 1", i + 3, corners(i) - 1, i < 7 ? 7 : 9);
+        put_corners(i, " %d", 5, 3);
+        put("\n");
+        if (i % 3)
+            continue;
+        put("%d %d 2 11 1", i + 3, corners(i) - 1); /* in a second group, too */
         put_corners(i, " %d", 5, 3);
         put("\n");
     }

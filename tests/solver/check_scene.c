@@ -895,6 +895,23 @@ START_TEST(test_gltf)
 }
 END_TEST
 
+/* Whose path is of another machine is beside the scene. */
+START_TEST(test_libraries_of_windows)
+{
+    static const char *const names[] = {".\\w.mtl", "C:\\Program Files\\w.mtl", "a\\b\\w.mtl"};
+    write_text("w.mtl", "newmtl x\nKd .25 .25 .25\n");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char text[200];
+        struct scene_file f;
+        snprintf(text, sizeof text, "mtllib %s\nusemtl x\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+                 names[i]);
+        ck_assert_int_eq(scene_file_read(&f, write_text("w.obj", text), NULL), 0);
+        ck_assert_double_eq(f.materials[f.polygon_materials[0]].reflectance[0], .25);
+        scene_file_free(&f);
+    }
+}
+END_TEST
+
 /* Numbers of 16 bits would be read as floats, many copies as one; a colour's index of refraction
  * is nobody's need. */
 START_TEST(test_gltf_extensions)
@@ -1096,7 +1113,7 @@ START_TEST(test_cut_shapes)
                               "property uchar red\r\nelement face 1\r\n"
                               "property list uchar int vertex_indices\r\nend_header\r\n"
                               "1000000 0 0 1\r\n1000000.5 0 0 1\r\n1000000.5 1 0 1\r\n3 0 1 2\r\n",
-                      stl[] = "solid of a kind\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                      stl[] = "\xEF\xBB\xBFsolid of a kind\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
                               "vertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
     expect_whole("cut.off", off, sizeof off - 1, 4);
     expect_whole("plain.off", plain_off, sizeof plain_off - 1, 2);
@@ -1302,6 +1319,7 @@ int main(void)
     tcase_add_test(t, test_errors);
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);
+    tcase_add_test(t, test_libraries_of_windows);
     tcase_add_test(t, test_gltf_extensions);
     tcase_add_test(t, test_gltf_materials);
     tcase_add_test(t, test_ply);
