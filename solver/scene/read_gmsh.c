@@ -440,7 +440,7 @@ static int read_tags(struct gmsh *g, int64_t tags, struct tags *to)
 }
 
 /* Takes back the last face if it is the one before it in another group. */
-static void drop_repeated(struct gmsh *g, const struct tags *tags)
+static void drop_repeated(struct gmsh *g, int64_t type, const struct tags *tags)
 {
     struct scene_file *f = g->mesh.file;
     const uint32_t n = f->polygon_count, size = f->sizes[n - 1];
@@ -448,6 +448,7 @@ static void drop_repeated(struct gmsh *g, const struct tags *tags)
     if (n > 1 && f->sizes[n - 2] == size && tags->surface == g->last.surface
         && tags->group != g->last.group
         && memcmp(corners - size, corners, size * sizeof *corners) == 0) {
+        g->mesh.curved -= nodes_of(type) != corners_of(type);
         f->polygon_count--;
         f->index_count -= size;
     } else {
@@ -477,7 +478,7 @@ static int read_elements_2(struct gmsh *g)
         if (read_tags(g, tags, &of) || read_element(g, type, of.group))
             return -1;
         if (g->mesh.file->polygon_count > faces)
-            drop_repeated(g, &of);
+            drop_repeated(g, type, &of);
     }
     return need_end(g, "$EndElements");
 }
@@ -543,6 +544,10 @@ static int read_section(struct gmsh *g)
         g->elements = 1;
         return g->version == 4 ? read_elements_4(g) : read_elements_2(g);
     }
+    if (word_is(t, "$ParametricNodes"))
+        return report_error(g->mesh.path, t->number,
+                            "nodes with their places on surfaces are not read; convert the mesh: "
+                            "gmsh -0 -format msh22 -o NEW.msh OLD.msh");
     return pass_over(g);
 }
 

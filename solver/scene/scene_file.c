@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include "scene/gltf_materials.h"
+#include "scene/other_formats.h"
 #include "scene/read_assimp.h"
 #include "scene/read_meshes.h"
 #include "scene/read_obj.h"
@@ -242,7 +243,7 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
         return report_error(path, 0,
                             "cannot read: this is a pipe or a device; write the scene to a file");
     const struct shape_format *shape = shape_format(path);
-    if (has_extension(path, gltf) && gltf_check_extensions(path))
+    if (other_formats_refuse(path) || (has_extension(path, gltf) && gltf_check_extensions(path)))
         return -1;
     int result = shape                      ? read_shape(f, path, shape, options->quiet)
                  : has_extension(path, obj) ? read_obj(f, path, options->quiet)

@@ -59,6 +59,11 @@ START_TEST(test_refusals)
          "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
          "1 -7 0 1 2 3\n$EndElements\n",
          ":9: error: an element of type -7"},
+        {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n0\n",
+         ":4: error: nodes with their places on surfaces are not read"},
+        {"a.PVTU", "<VTKFile/>", ": error: it names other files, of pieces"},
+        {"a.stp", "ISO-10303-21;\n", ": error: a shape that has no mesh yet; make one"},
+        {"a.unv", "    -1\n  2411\n", ": error: a mesh of another kind; convert it: gmsh"},
         {"a.bdf", "GRID,1,,0,0,0\nCTRIA3,1,1,1,2,3\n", ":2: error: this face names node 2"},
         {"a.bdf", "GRID,1,4,0,0,0\n", ":1: error: GRID 1 is in coordinate system 4, which is not"},
         {"a.bdf",
