@@ -49,7 +49,7 @@ static int print_help(void)
            "    radiosity solve room.obj --image room.png\n"
            "\n"
            "SCENE is OBJ+MTL, PLY, STL, OFF, Gmsh .msh, VTK .vtk .vtu .vtp, Nastran .bdf\n"
-           ".nas, View3D .vs3, glTF, Collada or what else Assimp reads, in metres. The\n"
+           ".nas .dat, View3D .vs3, glTF, Collada or what else Assimp reads, in metres. The\n"
            "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
            "Faces have one side unless the material's name ends in _2s.\n"
            "COMMAND --help tells its options, --help=all all of them; --version the version.\n"
