@@ -133,6 +133,15 @@ followed and decided otherwise | runtime/oracle/follow.c | s/return (enum decisi
 differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/    if (1)/; s/    if (panel.differences) {/    if (0) {/ | solver/check_compare
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
+VTK: letters are bytes | solver/scene/vtk_arrays.c | s/more + 2) . 3 . 4/more)/ | solver/check_mesh_formats
+VTK: lengths of appended arrays are believed | solver/scene/vtk_arrays.c | s/if (more > (a->appended_base64/if (0 > (a->appended_base64/ | solver/check_mesh_formats solver/check_mesh_refusals
+VTK: no array is of nothing | solver/scene/vtk_arrays.c | s/count .. bytes == 3 . word ?/count ?/ | solver/check_mesh_formats
+VTK: low bytes first | solver/scene/read_vtk.c | s/v->type->size, 1)/v->type->size, 0)/ | solver/check_mesh_formats
+VTK: short strings alone | solver/scene/read_vtk.c | s/size = 8 >> (first >> 6)/size = 1 + 0 * first/ | solver/check_mesh_formats
+Gmsh: an element for each group | solver/scene/read_gmsh.c | s/if (n > 1 \&\& /if (n > 1 \&\& 0 \&\& / | solver/check_mesh_formats
+Nastran: lines of other files | solver/scene/read_nastran.c | s/return a->depth ? 0 :/return a->depth < 0 ? 0 :/ | solver/check_mesh_formats
+Nastran: repeated cards pass | solver/scene/read_nastran.c | s/if (.first == '=')/if (*first == 1)/ | solver/check_mesh_refusals
+glTF: any extension will do | solver/scene/gltf_materials.c | s/!is_harmless(/0 \&\& !is_harmless(/ | solver/check_scene
 libraries: the first counts | solver/scene/name_slots.c | s/^    \*slot_of(s, names, names\[i\]) = i;/    if (is_new) &/ | solver/check_damaged
 damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
 more behind a state | runtime/engine/exchange_state_read.c | s/judge(s, state_get_end(&s->in)) < 0/0/ | runtime/check_exchange_state
