@@ -134,7 +134,7 @@ differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
 VTK: letters are bytes | solver/scene/vtk_arrays.c | s/more + 2) . 3 . 4/more)/ | solver/check_mesh_formats
-VTK: lengths of appended arrays are believed | solver/scene/vtk_arrays.c | s/if (more > (a->appended_base64/if (0 > (a->appended_base64/ | solver/check_mesh_formats solver/check_mesh_refusals
+VTK: lengths of appended arrays are believed | solver/scene/vtk_arrays.c | s/. 3 : left)/* 3 : more)/ | solver/check_mesh_formats solver/check_mesh_refusals
 VTK: no array is of nothing | solver/scene/vtk_arrays.c | s/count .. bytes == 3 . word ?/count ?/ | solver/check_mesh_formats
 VTK: low bytes first | solver/scene/read_vtk.c | s/v->type->size, 1)/v->type->size, 0)/ | solver/check_mesh_formats
 VTK: short strings alone | solver/scene/read_vtk.c | s/size = 8 >> (first >> 6)/size = 1 + 0 * first/ | solver/check_mesh_formats

@@ -155,6 +155,17 @@ START_TEST(test_refusals)
 }
 END_TEST
 
+/* Of five bytes four are left, though there are as many in all. */
+START_TEST(test_appended_past_its_end)
+{
+    text.size = 0;
+    put(APPENDED("4", "raw") "_abcd\5%c%c%cefgh" BEHIND, 0, 0, 0);
+    write_text("past.vtp");
+    const char *said = refusal(in_folder("past.vtp"));
+    ck_assert_msg(strstr(said, ":2: error: an appended array of offset 4 is not all"), "%s", said);
+}
+END_TEST
+
 #define TRIANGLE "F 3\nV 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\nS 1 1 2 3 0 0 0 .5 a\n"
 
 /* What is read, though something is odd about it: a line that says so, besides that of all meshes,
@@ -195,6 +206,7 @@ int main(void)
     Suite *suite = suite_create("mesh_refusals");
     TCase *t = tcase_create("mesh_refusals");
     tcase_add_test(t, test_refusals);
+    tcase_add_test(t, test_appended_past_its_end);
     tcase_add_test(t, test_warnings);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);
