@@ -180,12 +180,6 @@ static void gather_extremes(const struct bound_sweep *w)
     }
 }
 
-static int rises(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Levels: 0, and values that the leaves have, evenly from the least to the most. */
 static void choose_levels(struct bound_sweep *w)
 {
@@ -197,7 +191,7 @@ static void choose_levels(struct bound_sweep *w)
         for (uint32_t i = 0; i < h->count && n <= SAMPLES; i += step)
             if (h->elements[i].vertices && w->op->uncovered[i] > 0)
                 samples[n++] = w->value[(size_t)i * bands + k];
-        qsort(samples, n, sizeof *samples, rises);
+        qsort(samples, n, sizeof *samples, compare_numbers);
         for (size_t t = 0; t < LEVELS; t++)
             w->level[k][t] = t > 0 && n > 0 ? samples[(n - 1) * t / (LEVELS - 1)] : 0;
     }

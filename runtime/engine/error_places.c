@@ -11,6 +11,7 @@
 #include "kernel/constants.h"
 #include "kernel/leaf_at.h"
 #include "kernel/surface_point.h"
+#include "util/array.h"
 
 /* ---- where light lands */
 
@@ -48,19 +49,13 @@ static uint32_t land(const struct error_places *x, double *place, uint32_t most,
     return found;
 }
 
-static int by_place(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static int spread_light(struct error_places *x, uint32_t landings, uint64_t stream, uint64_t *rays)
 {
     double *place = malloc((landings + 1) * sizeof *place);
     if (!place)
         return -1;
     uint32_t found = land(x, place, landings, stream, rays), kept = 0;
-    qsort(place, found, sizeof *place, by_place);
+    qsort(place, found, sizeof *place, compare_numbers);
     for (uint32_t i = ERROR_PLACES_CELL / 2; i < found; i += ERROR_PLACES_CELL)
         place[kept++] = place[i];
     int failed = spread_around(&x->lit, place, NULL, kept, 0);

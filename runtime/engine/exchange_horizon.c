@@ -17,6 +17,7 @@
 #include <string.h>
 #include "engine/exchange_horizon.h"
 #include "engine/sight_shadows.h"
+#include "util/array.h"
 #include "visibility/hidden.h"
 
 /* The most lines through a rectangle, and corners of what they leave of a face. */
@@ -121,12 +122,6 @@ static int add_foot(struct horizon *z, const double (*corner)[3], int n, const d
     return ends == 3 ? add_edge(z, foot[0], foot[1], plane, down) : 0;
 }
 
-static int compare_faces(const void *a, const void *b)
-{
-    const uint32_t *x = a, *y = b;
-    return *x < *y ? -1 : *x > *y;
-}
-
 /* The edges of a face that may be outlines in the shaft. One that a face of the list has on either
  * side is the first's. */
 static int add_face(struct looking_past *l, const struct shaft *shaft, uint32_t index)
@@ -143,7 +138,7 @@ static int add_face(struct looking_past *l, const struct shaft *shaft, uint32_t 
         const int next = i + 1 < e->vertices ? i + 1 : 0;
         const uint32_t mate = (uint32_t)(t->mates.of[index][i] / 2);
         if (mate < index
-            && bsearch(&mate, l->list->face, (size_t)l->list->count, sizeof mate, compare_faces))
+            && bsearch(&mate, l->list->face, (size_t)l->list->count, sizeof mate, compare_words))
             continue;
         if ((front && hidden_front(shaft, &t->h.elements[mate]) == front)
             || !hidden_edge(shaft, e->vertex[i], e->vertex[next]))

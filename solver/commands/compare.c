@@ -13,6 +13,7 @@
 #include "commands/asked_oracle.h"
 #include "commands/commands.h"
 #include "output/json_file.h"
+#include "util/array.h"
 #include "util/progress.h"
 #include "util/decisions.h"
 #include "util/device.h"
@@ -289,15 +290,9 @@ static double solve_once(const struct options *o, const struct open_scene *scene
     return report->seconds.refine;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median(double *values, int n)
 {
-    qsort(values, (size_t)n, sizeof *values, by_size);
+    qsort(values, (size_t)n, sizeof *values, compare_numbers);
     return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 

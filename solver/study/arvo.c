@@ -24,6 +24,7 @@
 #include <stdlib.h>
 
 #include "study/closed_forms.h"
+#include "util/array.h"
 
 #define SOURCE 0.5   /* m, half its side */
 #define RECEIVER 5.0 /* m, half its side */
@@ -277,12 +278,6 @@ void arvo_measure(struct arvo_errors *errors, int n)
 
 /* ---- the same by samples */
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* One whole element by m x m midpoints, which stands for `times`; f has room for them. */
 static void add_samples(struct arvo_errors *all, double *f, int m, const double centre[2],
                         double side, double times)
@@ -294,7 +289,7 @@ static void add_samples(struct arvo_errors *all, double *f, int m, const double 
         double y = centre[1] + side * (((double)(i / (size_t)m) + 0.5) / m - 0.5);
         sum += f[i] = factor(x, y);
     }
-    qsort(f, count, sizeof *f, by_size);
+    qsort(f, count, sizeof *f, compare_numbers);
     double mean = sum / (double)count, here = factor(centre[0], centre[1]);
     const double constant[2][ARVO_PROJECTIONS] = {{f[count / 2], mean, here}, {mean, mean, here}};
     double share = times * side * side / (double)count;

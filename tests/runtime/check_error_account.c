@@ -21,6 +21,7 @@
 #include "kernel/point_factor.h"
 #include "runtime/make_solve.h"
 #include "suite.h"
+#include "util/array.h"
 
 /* ---- chance */
 
@@ -190,18 +191,12 @@ struct results {
     int count, below;
 };
 
-static int rising(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void tell(const char *kind, struct results *r)
 {
     printf("%s: %d problems, %d bounds below the error;", kind, r->count, r->below);
     for (int k = 0; k < NORMS && r->count; k++) {
-        qsort(r->over[k], (size_t)r->count, sizeof(double), rising);
-        qsort(r->near[k], (size_t)r->count, sizeof(double), rising);
+        qsort(r->over[k], (size_t)r->count, sizeof(double), compare_numbers);
+        qsort(r->near[k], (size_t)r->count, sizeof(double), compare_numbers);
         printf(" %s bound/error median %.3g, worst %.3g, estimate/error %.2g to %.2g, median %.2g;",
                norm_names[k], r->over[k][r->count / 2], r->over[k][r->count - 1], r->near[k][0],
                r->near[k][r->count - 1], r->near[k][r->count / 2]);

@@ -13,6 +13,7 @@
 #include "runtime/two_squares.h"
 #include "suite.h"
 #include "terms/visibility.h"
+#include "util/array.h"
 #include "util/oracles.h"
 #include "visibility/candidates.h"
 #include "visibility/hidden.h"
@@ -59,12 +60,6 @@ static void add_ball(struct scene *s, const double c[3], double radius, double d
 
 static const int no_gap[2] = {-1, -1};
 
-static int compare_faces(const void *a, const void *b)
-{
-    const uint32_t *x = a, *y = b;
-    return *x < *y ? -1 : *x > *y;
-}
-
 /* The lower square looking at the upper one past what stands between, both ways. */
 struct look {
     struct exchange_tree t;
@@ -86,7 +81,7 @@ static void look_open(struct look *l, const struct scene *s)
     ck_assert(shaft_open(&shaft, l->low, high, &l->t.host));
     l->count = candidates_find(&l->t.h, &shaft, l->t.host.ray_offset, SIGHT_LIST, l->list);
     ck_assert_int_le(l->count, SIGHT_CUT);
-    qsort(l->list, (size_t)l->count, sizeof *l->list, compare_faces);
+    qsort(l->list, (size_t)l->count, sizeof *l->list, compare_words);
     sight_open(&l->sight, high, &whole, l->t.host.ray_offset);
     ck_assert_int_eq(sight_between_find(&l->between, &l->t, &shaft, l->list, l->count, 0),
                      BETWEEN_SOME);

@@ -13,6 +13,7 @@
 
 #include "runtime/make_polygons.h"
 #include "suite.h"
+#include "util/array.h"
 
 enum { LINES = 100, CORNERS = 2 * LINES + 8, POINTS_OF_LINE = 300, LONG = 20 };
 
@@ -43,12 +44,6 @@ static void outline(const double (*at)[2], int corners, int parts)
 }
 
 /* ---- in the plane */
-
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* Where a way from a point meets a line, in parts of both; 0 when they are parallel. Above 0: the
  * line's front. */
@@ -123,7 +118,7 @@ static void sweep(int i, double half, double *row)
             if (y * d[0] - x * d[1] > 1e-12)
                 edge[edges++] = (x * d[0] + y * d[1]) / hypot(x, y);
         }
-        qsort(edge, (size_t)edges, sizeof *edge, compare);
+        qsort(edge, (size_t)edges, sizeof *edge, compare_numbers);
         for (int k = 0; k + 1 < edges; k++) {
             if (!(edge[k + 1] > edge[k]))
                 continue;

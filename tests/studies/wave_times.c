@@ -20,6 +20,7 @@
 #include "engine/solve.h"
 #include "oracle/counted_host.h"
 #include "scene/read_scene.h"
+#include "util/array.h"
 #include "util/embree.h"
 #include "util/oracles.h"
 #include "wave.h"
@@ -181,12 +182,6 @@ static double hold(enum who who, const struct discussion *block, int count)
     return took;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void hold_by_all(struct work *work, const struct discussion *block, int count)
 {
     for (int k = 0; k < ASKED && count > 0; k++) {
@@ -246,7 +241,7 @@ static void compare_turns(const double *of, const double *over, double ratio[TUR
 {
     for (int t = 0; t < TURNS; t++)
         ratio[t] = of[t] / over[t];
-    qsort(ratio, TURNS, sizeof *ratio, by_size);
+    qsort(ratio, TURNS, sizeof *ratio, compare_numbers);
 }
 
 static void print_work(const char *scene, const char *what, const struct work *w)
@@ -257,7 +252,7 @@ static void print_work(const char *scene, const char *what, const struct work *w
         if ((!bench.by[who] && who != BARE) || (who == BARE && w->rays <= 0))
             continue;
         memcpy(sorted, w->seconds[who], sizeof sorted);
-        qsort(sorted, TURNS, sizeof *sorted, by_size);
+        qsort(sorted, TURNS, sizeof *sorted, compare_numbers);
         compare_turns(w->seconds[who], w->seconds[over], ratio);
         printf("%-12s %-11s %9.0f  %-11s %7.1f ns each  %.2f of %s (%.2f to %.2f)", scene, what,
                w->pairs / TURNS, names[who], 1e9 * sorted[TURNS / 2] * TURNS / w->pairs,
