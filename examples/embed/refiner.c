@@ -2573,19 +2573,23 @@ static inline int refiner_visibility_choice(const struct refiner_element *r, con
     return count > choice ? count : choice;
 }
 
-/* The visible fraction by `count` segments, a power of two up to SOBOL_MOST, cast in batches of
- * SEGMENTS_MAX; of elements near each other chosen from `near`. */
-REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *receiver, const struct refiner_element *emitter,
-                               const struct refiner_host *host, int count, int near)
+/* Where ends on an element s are, of so many drawn. */
+typedef void refiner_visibility_ends(struct refiner_samples *samples, int batch, const struct refiner_element *s,
+                             const struct refiner_host *host);
+
+/* The share that arrives of what `points` segments would carry, a power of two up to SOBOL_MOST,
+ * cast in batches of SEGMENTS_MAX, `count` of them by chance where that is less. Both ends lie by
+ * area, unless `place` tells where those on s do. */
+REFINER_TOOL double refiner_visibility_among(const struct refiner_element *r, const struct refiner_element *s,
+                             const struct refiner_host *host, int points, int count, uint64_t hash,
+                             refiner_visibility_ends *place)
 {
-    const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter,
-                         *s = r == receiver ? emitter : receiver;
-    const int points = refiner_visibility_choice(r, s, count, near);
-    uint64_t hash = refiner_hash64(r->id + refiner_hash64(s->id));
     struct refiner_samples_ends ends;
     refiner_sampler_clip(&ends.p, r, s);
-    refiner_sampler_clip(&ends.q, s, r);
-    if (ends.p.p.n == 0 || ends.q.p.n == 0)
+    ends.q.p.n = 0;
+    if (!place)
+        refiner_sampler_clip(&ends.q, s, r);
+    if (ends.p.p.n == 0 || (!place && ends.q.p.n == 0))
         return 0;
     ends.n = r->normal;
     ends.m = s->normal;
@@ -2599,11 +2603,23 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
     for (int first = 0; first < points; first += REFINER_SEGMENTS_MAX) {
         int batch = points - first < REFINER_SEGMENTS_MAX ? points - first : REFINER_SEGMENTS_MAX;
         refiner_sobol_points(&net, first, batch, samples.digit);
+        if (place)
+            place(&samples, batch, s, host);
         refiner_samples_make(&samples, &ends, batch);
         refiner_samples_segments(&samples, batch, segments);
         refiner_segments_cast_few(host, batch, count, hash, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
+}
+
+/* The visible fraction by `count` segments; of elements near each other chosen from `near`. */
+REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *receiver, const struct refiner_element *emitter,
+                               const struct refiner_host *host, int count, int near)
+{
+    const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter,
+                         *s = r == receiver ? emitter : receiver;
+    return refiner_visibility_among(r, s, host, refiner_visibility_choice(r, s, count, near), count,
+                            refiner_hash64(r->id + refiner_hash64(s->id)), NULL);
 }
 
 /* The level that `rays` rays or more reach, and how many a level casts. */

@@ -48,19 +48,23 @@ static inline int visibility_choice(const struct element *r, const struct elemen
     return count > choice ? count : choice;
 }
 
-/* The visible fraction by `count` segments, a power of two up to SOBOL_MOST, cast in batches of
- * SEGMENTS_MAX; of elements near each other chosen from `near`. */
-OUTLINE double visibility_rays(const struct element *receiver, const struct element *emitter,
-                               const struct host *host, int count, int near)
+/* Where ends on an element s are, of so many drawn. */
+typedef void visibility_ends(struct samples *samples, int batch, const struct element *s,
+                             const struct host *host);
+
+/* The share that arrives of what `points` segments would carry, a power of two up to SOBOL_MOST,
+ * cast in batches of SEGMENTS_MAX, `count` of them by chance where that is less. Both ends lie by
+ * area, unless `place` tells where those on s do. */
+TOOL double visibility_among(const struct element *r, const struct element *s,
+                             const struct host *host, int points, int count, uint64_t hash,
+                             visibility_ends *place)
 {
-    const struct element *r = receiver->id < emitter->id ? receiver : emitter,
-                         *s = r == receiver ? emitter : receiver;
-    const int points = visibility_choice(r, s, count, near);
-    uint64_t hash = hash64(r->id + hash64(s->id));
     struct samples_ends ends;
     sampler_clip(&ends.p, r, s);
-    sampler_clip(&ends.q, s, r);
-    if (ends.p.p.n == 0 || ends.q.p.n == 0)
+    ends.q.p.n = 0;
+    if (!place)
+        sampler_clip(&ends.q, s, r);
+    if (ends.p.p.n == 0 || (!place && ends.q.p.n == 0))
         return 0;
     ends.n = r->normal;
     ends.m = s->normal;
@@ -74,11 +78,23 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
     for (int first = 0; first < points; first += SEGMENTS_MAX) {
         int batch = points - first < SEGMENTS_MAX ? points - first : SEGMENTS_MAX;
         sobol_points(&net, first, batch, samples.digit);
+        if (place)
+            place(&samples, batch, s, host);
         samples_make(&samples, &ends, batch);
         samples_segments(&samples, batch, segments);
         segments_cast_few(host, batch, count, hash, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
+}
+
+/* The visible fraction by `count` segments; of elements near each other chosen from `near`. */
+OUTLINE double visibility_rays(const struct element *receiver, const struct element *emitter,
+                               const struct host *host, int count, int near)
+{
+    const struct element *r = receiver->id < emitter->id ? receiver : emitter,
+                         *s = r == receiver ? emitter : receiver;
+    return visibility_among(r, s, host, visibility_choice(r, s, count, near), count,
+                            hash64(r->id + hash64(s->id)), NULL);
 }
 
 /* The level that `rays` rays or more reach, and how many a level casts. */

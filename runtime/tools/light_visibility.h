@@ -41,43 +41,27 @@ static inline const struct element *light_visibility_part(const struct element *
     return e;
 }
 
+/* The ends on s lie by A B. */
+static inline void light_visibility_ends(struct samples *samples, int batch,
+                                         const struct element *s, const struct host *host)
+{
+    const struct element *elements = host->elements ? *host->elements : NULL;
+    for (int i = 0; i < batch; i++) {
+        double u = sobol_unit(samples->digit[2][i]), to[3];
+        const struct element *part = light_visibility_part(s, elements, &u);
+        surface_point(to, part, u, sobol_unit(samples->digit[3][i]));
+        for (int k = 0; k < 3; k++)
+            samples->to[k][i] = to[k];
+    }
+    for (int i = batch; i % LANES; i++) /* no numbers there, but read */
+        samples->to[0][i] = samples->to[1][i] = samples->to[2][i] = 0;
+}
+
 OUTLINE double light_visibility_rays(const struct element *r, const struct element *s,
                                      const struct host *host, int count, int near)
 {
-    const struct element *elements = host->elements ? *host->elements : NULL;
-    const uint64_t hash = hash64(r->id + 2 * hash64(s->id));
-    const int points = visibility_choice(r, s, count, near);
-    struct samples_ends ends;
-    sampler_clip(&ends.p, r, s);
-    if (ends.p.p.n == 0)
-        return 0;
-    ends.q.p.n = 0;
-    ends.n = r->normal;
-    ends.m = s->normal;
-    ends.spread = (r->area < s->area ? r->area : s->area) / points;
-    ends.ray_offset = host->ray_offset;
-    struct sobol net;
-    sobol_start(&net, hash);
-    struct samples samples;
-    struct segment segments[SEGMENTS_MAX];
-    double seen = 0, all = 0;
-    for (int first = 0; first < points; first += SEGMENTS_MAX) {
-        int batch = points - first < SEGMENTS_MAX ? points - first : SEGMENTS_MAX;
-        sobol_points(&net, first, batch, samples.digit);
-        for (int i = 0; i < batch; i++) {
-            double u = sobol_unit(samples.digit[2][i]), to[3];
-            const struct element *part = light_visibility_part(s, elements, &u);
-            surface_point(to, part, u, sobol_unit(samples.digit[3][i]));
-            for (int k = 0; k < 3; k++)
-                samples.to[k][i] = to[k];
-        }
-        for (int i = batch; i % LANES; i++) /* no numbers there, but read */
-            samples.to[0][i] = samples.to[1][i] = samples.to[2][i] = 0;
-        samples_make(&samples, &ends, batch);
-        samples_segments(&samples, batch, segments);
-        segments_cast_few(host, batch, count, hash, segments, samples.weight, &seen, &all);
-    }
-    return all > 0 ? seen / all : 0;
+    return visibility_among(r, s, host, visibility_choice(r, s, count, near), count,
+                            hash64(r->id + 2 * hash64(s->id)), light_visibility_ends);
 }
 
 TOOL enum light_visibility_answer tool_light_visibility(struct discussion *d, int rays, int near)
