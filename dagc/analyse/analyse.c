@@ -150,6 +150,19 @@ const char *dag_target_name(const struct dag *dag, const struct target *target)
                                        : dag->decisions[target->index].name;
 }
 
+int dag_same_target(const struct target *a, const struct target *b)
+{
+    return a->kind == b->kind && a->index == b->index;
+}
+
+int dag_reads_term(const struct dag *dag, struct span needs, int term)
+{
+    for (int i = needs.first; i < needs.first + needs.count; i++)
+        if (dag->needs[i].term == term)
+            return 1;
+    return 0;
+}
+
 static const char *value_text(struct dag *dag, int expression, const char *before_extern);
 
 /* An operand of + - * / and of the minus sign. */

@@ -45,6 +45,8 @@ const struct node *dag_search_turn(const struct search *search, const struct nod
 
 const char *dag_answer_name(const struct dag *dag, const struct node *node, int answer);
 const char *dag_target_name(const struct dag *dag, const struct target *target);
+int dag_same_target(const struct target *a, const struct target *b);
+int dag_reads_term(const struct dag *dag, struct span needs, int term); /* is it among them? */
 /* The value, whole and the same for the same value: names resolved, operators in parentheses. */
 const char *dag_value_text(struct dag *dag, int expression);
 /* "transfer(absolute = epsilon)" */

@@ -90,11 +90,6 @@ static void find_classes(struct classes *classes)
     }
 }
 
-static int same_target(const struct target *a, const struct target *b)
-{
-    return a->kind == b->kind && a->index == b->index;
-}
-
 static int is_idle(const struct classes *classes, const struct node *node)
 {
     const struct arc *arcs = &classes->dag->arcs[node->arcs.first];
@@ -112,7 +107,7 @@ static int twin_of(const struct classes *classes, const struct node *node, int a
 {
     const struct arc *arcs = &classes->dag->arcs[node->arcs.first];
     for (int a = 0; a < answer; a++)
-        if (!same_target(&arcs[a].target, &arcs[answer].target)
+        if (!dag_same_target(&arcs[a].target, &arcs[answer].target)
             && class_of(classes, &arcs[a].target) == class_of(classes, &arcs[answer].target))
             return a;
     return -1;

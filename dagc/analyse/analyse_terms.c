@@ -61,14 +61,6 @@ int dag_is_kept(const struct dag *dag, int term)
     return 0;
 }
 
-static int handles(const struct dag *dag, struct span needs, int term)
-{
-    for (int i = needs.first; i < needs.first + needs.count; i++)
-        if (dag->needs[i].term == term)
-            return 1;
-    return 0;
-}
-
 /* The may-analysis beside it. A node may fill whatever it declares to read or write; a term that
  * decisions read may have come with the discussion. */
 void dag_possible_terms(const struct dag *dag, const struct oracle_graph *oracle, int term,
@@ -79,8 +71,9 @@ void dag_possible_terms(const struct dag *dag, const struct oracle_graph *oracle
     for (int i = 0; i < oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, oracle, i);
         const struct tool *tool = &dag->tools[node->tool];
-        int after = possible[i] || handles(dag, node->reads, term)
-                    || handles(dag, tool->reads, term) || handles(dag, tool->writes, term);
+        int after = possible[i] || dag_reads_term(dag, node->reads, term)
+                    || dag_reads_term(dag, tool->reads, term)
+                    || dag_reads_term(dag, tool->writes, term);
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
             if (target->kind == TARGET_NODE)

@@ -35,11 +35,6 @@ struct row {
     struct target fail, pass;
 };
 
-static int same_target(const struct target *x, const struct target *y)
-{
-    return x->kind == y->kind && x->index == y->index;
-}
-
 static int leads_to(const struct target *target, int node)
 {
     return target->kind == TARGET_NODE && target->index == node;
@@ -117,11 +112,11 @@ static int has_one_way(const struct ordering *o, int node, const struct target *
     int any = 0, other = 0;
     for (int k = 0; k < o->dag->nodes[node].arcs.count; k++) {
         const struct target *target = &arc_of(o, node, k)->target;
-        if (same_target(target, not )) {
+        if (dag_same_target(target, not )) {
             other = 1;
             continue;
         }
-        if (any && !same_target(target, sole))
+        if (any && !dag_same_target(target, sole))
             return 0;
         *sole = *target;
         any = 1;
@@ -207,7 +202,7 @@ static double share_to(const struct ordering *o, int node, const struct target *
     const struct measured *m = &o->profile->nodes[node];
     double count = 0;
     for (int k = 0; k < o->dag->nodes[node].arcs.count; k++)
-        count += same_target(&arc_of(o, node, k)->target, target) ? m->answers[k] : 0;
+        count += dag_same_target(&arc_of(o, node, k)->target, target) ? m->answers[k] : 0;
     return m->calls > 0 ? count / m->calls : 0;
 }
 
@@ -251,7 +246,7 @@ static void exchange(struct ordering *o, const struct row *row)
             if (from == row->a)
                 *target = leads_to(target, row->b) ? row->pass : *target;
             else if (from == row->b)
-                *target = same_target(target, &row->pass) ? to_a : *target;
+                *target = dag_same_target(target, &row->pass) ? to_a : *target;
             else if (leads_to(target, row->a))
                 *target = to_b;
         }
@@ -279,7 +274,7 @@ static int sweep(struct ordering *o, int telling)
             struct row row;
             int seen = 0;
             for (int j = 0; j < k; j++)
-                seen |= same_target(&arc_of(o, a, j)->target, target);
+                seen |= dag_same_target(&arc_of(o, a, j)->target, target);
             if (seen || target->kind != TARGET_NODE || !make_row(o, a, target->index, &row))
                 continue;
             const char *why = why_not(o, &row), *first = describe(o, row.a, &row),

@@ -80,11 +80,6 @@ static int place_in(const struct shared *s, int use, const struct target *target
     return -1;
 }
 
-static int same_target(const struct target *a, const struct target *b)
-{
-    return a->kind == b->kind && a->index == b->index;
-}
-
 /* Does anybody outside lead to a node but the first? */
 static int has_side_entry(const struct dag *dag, const struct oracle_graph *oracle,
                           const struct shared *s, int use, int which)
@@ -126,8 +121,8 @@ static int number_exits(struct dag *dag, struct shared *s)
             for (int same = 0; exit < s->exits; exit++) {
                 same = 1;
                 for (int u = 0; u < s->uses; u++)
-                    same &= same_target(&dag->arcs[exits[exit * s->uses + u]].target,
-                                        &dag->arcs[exits[s->exits * s->uses + u]].target);
+                    same &= dag_same_target(&dag->arcs[exits[exit * s->uses + u]].target,
+                                            &dag->arcs[exits[s->exits * s->uses + u]].target);
                 if (same)
                     break;
             }

@@ -69,6 +69,7 @@ struct text {
 
 void dag_print(struct text *text, const char *format, ...) PRINTF_LIKE(2, 3);
 void dag_print_upper(struct text *text, const char *name);
+void dag_print_constant(struct text *text, const char *prefix, const char *name); /* PREFIX_NAME */
 void dag_print_number(struct text *text, double value); /* as C: 0.1, 16.0, -INFINITY */
 void dag_print_integer(struct text *text, double value);
 void dag_print_string(struct text *text, const char *value);  /* as a C literal, quotes included */

@@ -56,6 +56,13 @@ void dag_print_upper(struct text *text, const char *name)
         print_byte(text, (char)toupper((unsigned char)*name));
 }
 
+void dag_print_constant(struct text *text, const char *prefix, const char *name)
+{
+    dag_print_upper(text, prefix);
+    print_byte(text, '_');
+    dag_print_upper(text, name);
+}
+
 const char *dag_number(double value, char buffer[32])
 {
     if (isinf(value))

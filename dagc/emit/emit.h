@@ -5,6 +5,12 @@
 
 #include "base/internal.h"
 
+/* What a value of the type is in C. */
+static inline const char *dag_c_type(const struct dag *dag, int type)
+{
+    return dag->types[type].base == BASE_INTEGER ? "int" : "double";
+}
+
 /* The functions that one graph can become; their decisions are the same. */
 enum flavour {
     FLAVOUR_PLAIN,   /* NAME_refine */

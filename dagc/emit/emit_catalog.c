@@ -16,14 +16,6 @@ static void print_banner(const struct dag *dag, struct text *out, const char *id
     dag_print(out, ": do not edit, change that and run dagc again.\n * %s */\n", idea);
 }
 
-/* An enumerator or macro of catalog.h: PREFIX_NAME. */
-static void print_constant(struct text *out, const char *prefix, const char *name)
-{
-    dag_print_upper(out, prefix);
-    dag_print(out, "_");
-    dag_print_upper(out, name);
-}
-
 /* The rest of a line: a comment, if there is anything to say. */
 static void print_doc(struct text *out, const char *before, const char *doc)
 {
@@ -35,17 +27,12 @@ static void print_doc(struct text *out, const char *before, const char *doc)
     dag_print(out, "\n");
 }
 
-static const char *c_type(const struct type *type)
-{
-    return type->base == BASE_INTEGER ? "int" : "double";
-}
-
 static void print_decisions(const struct dag *dag, struct text *out)
 {
     dag_print(out, "\n/* The leaves of every graph. */\nenum decision {\n");
     for (int i = 0; i < dag->decision_count; i++) {
         dag_print(out, "    ");
-        print_constant(out, "decision", dag->decisions[i].name);
+        dag_print_constant(out, "decision", dag->decisions[i].name);
         dag_print(out, "%s", i + 1 < dag->decision_count ? "," : "");
         print_doc(out, " ", dag->decisions[i].doc);
     }
@@ -59,12 +46,12 @@ static void print_answers(const struct dag *dag, struct text *out, const struct 
     for (int i = 0; i < tool->answers.count; i++) {
         const struct answer *answer = &dag->answers[tool->answers.first + i];
         dag_print(out, "    ");
-        print_constant(out, tool->name, answer->name);
+        dag_print_constant(out, tool->name, answer->name);
         dag_print(out, "%s /* %s */\n", i + 1 < tool->answers.count ? "," : "",
                   dag_kind_name(answer->kind));
     }
     dag_print(out, "};\n#define ");
-    print_constant(out, tool->name, "answers");
+    dag_print_constant(out, tool->name, "answers");
     dag_print(out, " %d\n", tool->answers.count);
 }
 
@@ -72,14 +59,14 @@ static void print_levels(const struct dag *dag, struct text *out, const struct t
 {
     print_doc(out, "\n", term->doc);
     dag_print(out, "enum %s_level { ", term->name);
-    print_constant(out, term->name, "absent");
+    dag_print_constant(out, term->name, "absent");
     for (int i = 0; i < term->levels.count; i++) {
         dag_print(out, ", ");
-        print_constant(out, term->name, dag->levels[term->levels.first + i].name);
+        dag_print_constant(out, term->name, dag->levels[term->levels.first + i].name);
     }
     if (term->levels.count == 0) {
         dag_print(out, ", ");
-        print_constant(out, term->name, "present");
+        dag_print_constant(out, term->name, "present");
     }
     dag_print(out, " };\n");
 }
@@ -104,7 +91,7 @@ static void print_numbers(const struct dag *dag, struct text *out)
               dag->role_count > 0 ? "," : "");
     for (int i = 0; i < dag->role_count; i++) {
         dag_print(out, "    ");
-        print_constant(out, "role", dag->roles[i].name);
+        dag_print_constant(out, "role", dag->roles[i].name);
         dag_print(out, "%s", i + 1 < dag->role_count ? "," : "");
         print_doc(out, " ", dag->roles[i].doc);
     }
@@ -128,7 +115,7 @@ static void print_terms(const struct dag *dag, struct text *out, const unsigned 
         if (terms != NULL && !terms[i])
             continue;
         any = 1;
-        dag_print(out, "    %s %s", c_type(type), term->name);
+        dag_print(out, "    %s %s", dag_c_type(dag, term->type), term->name);
         if (type->length > 1)
             dag_print(out, "[%d]", type->length);
         dag_print(out, "; /* %s */\n", dag_unit_name(type));
@@ -171,8 +158,7 @@ static void print_pointer(const struct dag *dag, struct text *out, const struct 
 {
     dag_print(out, "    enum %s_answer (*const declared)(struct discussion *", tool->name);
     for (int i = 0; i < tool->parameters.count; i++)
-        dag_print(out, ", %s",
-                  c_type(&dag->types[dag->parameters[tool->parameters.first + i].type]));
+        dag_print(out, ", %s", dag_c_type(dag, dag->parameters[tool->parameters.first + i].type));
     dag_print(out, ") = tool_%s;\n", tool->name);
 }
 

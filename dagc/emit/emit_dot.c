@@ -91,11 +91,6 @@ static void print_node(const struct drawing *drawing, const struct node *node)
               tool->kind == TOOL_COMMAND ? ", style=\"filled\", fillcolor=\"#eef0f6\"" : "");
 }
 
-static int same_target(const struct target *a, const struct target *b)
-{
-    return a->kind == b->kind && a->index == b->index;
-}
-
 /* The arcs of one kind to one target, from `answer` on, as one; leaves are made on the way. */
 static void print_arc(const struct drawing *drawing, const struct node *node, int answer,
                       unsigned char *done)
@@ -110,7 +105,7 @@ static void print_arc(const struct drawing *drawing, const struct node *node, in
               line_styles[answers[answer].kind]);
     for (int a = answer; a < node->arcs.count; a++)
         if (answers[a].kind == answers[answer].kind
-            && same_target(&dag->arcs[node->arcs.first + a].target, target)) {
+            && dag_same_target(&dag->arcs[node->arcs.first + a].target, target)) {
             dag_print(out, "%s&#160;%s&#160;", a > answer ? "<br/>" : "", answers[a].name);
             done[a] = 1;
         }
@@ -132,7 +127,7 @@ static int is_repeated(const struct drawing *drawing, const struct node *node, i
 {
     const struct arc *arcs = &drawing->dag->arcs[node->arcs.first];
     for (int a = 0; a < answer; a++)
-        if (same_target(&arcs[a].target, &arcs[answer].target))
+        if (dag_same_target(&arcs[a].target, &arcs[answer].target))
             return 1;
     return 0;
 }

@@ -208,9 +208,7 @@ static void print_term(const struct dag *dag, struct text *out, int term, int le
     dag_print(out, "term_%s(%s", t->name, at);
     if (t->levels.count > 0) {
         dag_print(out, ", ");
-        dag_print_upper(out, t->name);
-        dag_print(out, "_");
-        dag_print_upper(out, dag->levels[t->levels.first + level - 1].name);
+        dag_print_constant(out, t->name, dag->levels[t->levels.first + level - 1].name);
     }
     dag_print(out, ")");
 }

@@ -78,7 +78,7 @@ static void print_leaf(const struct flat *flat, const struct decision_tool *deci
                   term->name);
     }
     dag_print(flat->out, "    return ");
-    dag_flat_constant(flat->out, "decision", decision->name);
+    dag_print_constant(flat->out, "decision", decision->name);
     dag_print(flat->out, ";\n");
 }
 
@@ -107,7 +107,7 @@ static void print_unknown(const struct flat *flat, int number, const char *inden
     if (length == 1)
         dag_print(flat->out, "d.terms.%s = ", term->name);
     dag_print(flat->out, "0;\n%sd.terms.%s_level = ", indent, term->name);
-    dag_flat_constant(flat->out, term->name, "absent");
+    dag_print_constant(flat->out, term->name, "absent");
     dag_print(flat->out, ";\n");
 }
 
@@ -143,7 +143,7 @@ static void print_starts(const struct flat *flat)
         const struct look *look = &copies->looks[i];
         const struct term *term = &flat->dag->terms[look->term];
         dag_print(out, "%s(d.terms.%s_level >= ", i > 0 ? "\n            + " : "", term->name);
-        dag_flat_constant(out, term->name, dag_flat_level(flat->dag, term, look->level));
+        dag_print_constant(out, term->name, dag_flat_level(flat->dag, term, look->level));
         dag_print(out, ") * %d", look->weight);
     }
     dag_print(out, ") {\n");
@@ -260,7 +260,7 @@ static void print_parts_loop(const struct flat *flat)
     for (int i = 0; i < flat->dag->decision_count; i++)
         if (flat->leaf_used[i]) {
             dag_print(out, "    if (~at == (int)");
-            dag_flat_constant(out, "decision", flat->dag->decisions[i].name);
+            dag_print_constant(out, "decision", flat->dag->decisions[i].name);
             dag_print(out, ")\n        goto leaf_%s;\n", flat->dag->decisions[i].name);
         }
     dag_print(out, "    return (enum decision)~at;\n");
@@ -403,9 +403,7 @@ void dag_emit_callers(struct dag *dag, struct text *out, const unsigned char *re
         dag_print(out, "\nCALLED enum %s_answer ask_%s(struct discussion *d", tool->name,
                   tool->name);
         for (int k = 0; k < tool->parameters.count; k++)
-            dag_print(out, ", %s %s_",
-                      dag->types[parameters[k].type].base == BASE_INTEGER ? "int" : "double",
-                      parameters[k].name);
+            dag_print(out, ", %s %s_", dag_c_type(dag, parameters[k].type), parameters[k].name);
         dag_print(out, ")\n{\n    return tool_%s(d", tool->name);
         for (int k = 0; k < tool->parameters.count; k++)
             dag_print(out, ", %s_", parameters[k].name);

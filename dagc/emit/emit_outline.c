@@ -54,8 +54,7 @@ static void print_function(struct flat *flat, const struct shared *s)
     for (int i = 0; i < s->different; i++) {
         const struct argument *argument = &dag->arguments[s->argument[i * s->uses]];
         int type = dag->parameters[argument->parameter].type, whole = !is_doubtful(s, i);
-        dag_print(flat->out, ", %s argument_%d",
-                  whole && dag->types[type].base == BASE_INTEGER ? "int" : "double", i + 1);
+        dag_print(flat->out, ", %s argument_%d", whole ? dag_c_type(dag, type) : "double", i + 1);
     }
     if (s->doubts > 0)
         dag_print(flat->out, ",\n    struct discussion *discussion");

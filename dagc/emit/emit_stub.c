@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "base/internal.h"
+#include "emit/emit.h"
 
 static void print_guard(struct text *out, const char *kind, const char *name)
 {
@@ -30,9 +30,8 @@ static void print_needs(const struct dag *dag, struct text *out, struct span nee
         dag_print(out, " * It %s the term %s", how, term->name);
         if (term->levels.count > 0) {
             dag_print(out, ": term_%s(d, ", term->name);
-            dag_print_upper(out, term->name);
-            dag_print(out, "_");
-            dag_print_upper(out, dag->levels[term->levels.first + dag->needs[i].level - 1].name);
+            dag_print_constant(out, term->name,
+                               dag->levels[term->levels.first + dag->needs[i].level - 1].name);
             dag_print(out, ")");
         } else
             dag_print(out, ": term_%s(d)", term->name);
@@ -86,8 +85,7 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     dag_print(out, "\nTOOL enum %s_answer tool_%s(struct discussion *d", tool->name, tool->name);
     for (int i = 0; i < tool->parameters.count; i++) {
         const struct parameter *p = &dag->parameters[tool->parameters.first + i];
-        dag_print(out, ", %s %s", dag->types[p->type].base == BASE_INTEGER ? "int" : "double",
-                  p->name);
+        dag_print(out, ", %s %s", dag_c_type(dag, p->type), p->name);
     }
     dag_print(out, ")\n{\n    (void)d;\n");
     for (int i = 0; i < tool->parameters.count; i++)
@@ -96,23 +94,19 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     for (int i = 0; i < tool->answers.count; i++) {
         const struct answer *answer = &dag->answers[tool->answers.first + i];
         dag_print(out, "     *   ");
-        dag_print_upper(out, tool->name);
-        dag_print(out, "_");
-        dag_print_upper(out, answer->name);
+        dag_print_constant(out, tool->name, answer->name);
         dag_print(out, ", %s\n",
                   answer->refuses ? "refuses: writes nothing" : dag_kind_name(answer->kind));
     }
     dag_print(out, "     */\n    return ");
-    dag_print_upper(out, tool->name);
-    dag_print(out, "_");
-    dag_print_upper(out, dag->answers[tool->answers.first].name);
+    dag_print_constant(out, tool->name, dag->answers[tool->answers.first].name);
     dag_print(out, ";\n}\n\n#endif\n");
 }
 
 static void print_term(const struct dag *dag, struct text *out, const struct term *term)
 {
     const struct type *type = &dag->types[term->type];
-    const char *c = type->base == BASE_INTEGER ? "int" : "double";
+    const char *c = dag_c_type(dag, term->type);
     dag_print(out, "/* %s - term: ", term->header);
     dag_print_comment(
         out, *term->doc != '\0' ? term->doc : "what is it, and how far can each level be trusted?");
@@ -136,9 +130,7 @@ static void print_term(const struct dag *dag, struct text *out, const struct ter
               type->length > 1 ? "[0]" : "");
     for (int i = 0; i < term->levels.count; i++) {
         dag_print(out, "%s", i == 0 ? ": " : ", ");
-        dag_print_upper(out, term->name);
-        dag_print(out, "_");
-        dag_print_upper(out, dag->levels[term->levels.first + i].name);
+        dag_print_constant(out, term->name, dag->levels[term->levels.first + i].name);
     }
     dag_print(out, " */\n        d->terms.%s_level = ", term->name);
     if (term->levels.count > 0)
@@ -171,8 +163,7 @@ static void print_tool_wave(const struct dag *dag, struct text *out, const struc
     print_wave_head(out, "TOOL_WAVE", tool->wave, tool->header, "wave_", tool->name);
     for (int i = 0; i < tool->parameters.count; i++) {
         const struct parameter *p = &dag->parameters[tool->parameters.first + i];
-        dag_print(out, ", const %s *%s",
-                  dag->types[p->type].base == BASE_INTEGER ? "int" : "double", p->name);
+        dag_print(out, ", const %s *%s", dag_c_type(dag, p->type), p->name);
     }
     dag_print(out,
               ", unsigned char *answers)\n{\n    int k_;\n    for (k_ = 0; k_ < count; k_++)\n"

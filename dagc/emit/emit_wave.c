@@ -82,11 +82,6 @@ void dag_emit_wave_h(const struct dag *dag, struct text *out, const struct oracl
     dag_print(out, ";\n");
 }
 
-static const char *c_type(const struct dag *dag, const struct parameter *parameter)
-{
-    return dag->types[parameter->type].base == BASE_INTEGER ? "int" : "double";
-}
-
 void dag_emit_wave_headers(struct dag *dag, struct text *out, const unsigned char *reached)
 {
     const unsigned char *terms = dag_emit_reached(dag).terms;
@@ -238,9 +233,8 @@ static void print_first_read(const struct wave *wave, const struct node *node, i
     dag_print(wave->out, "        wave_term_%s(block, at[%d], waiting[%d]", term->name, list, list);
     if (term->levels.count > 0) {
         dag_print(wave->out, ", ");
-        dag_print_upper(wave->out, term->name);
-        dag_print(wave->out, "_");
-        dag_print_upper(wave->out, dag->levels[term->levels.first + need->level - 1].name);
+        dag_print_constant(wave->out, term->name,
+                           dag->levels[term->levels.first + need->level - 1].name);
     }
     dag_print(wave->out, ");\n");
 }
@@ -249,9 +243,10 @@ static void print_first_read(const struct wave *wave, const struct node *node, i
 static void print_given(const struct wave *wave, const struct node *node, int i)
 {
     const struct dag *dag = wave->dag;
-    dag_print(wave->out, "%s given_%d",
-              c_type(dag, &dag->parameters[dag->arguments[node->arguments.first + i].parameter]),
-              i + 1);
+    dag_print(
+        wave->out, "%s given_%d",
+        dag_c_type(dag, dag->parameters[dag->arguments[node->arguments.first + i].parameter].type),
+        i + 1);
 }
 
 /* The arguments of all pairs of the list, given_1[k] and so on. */

@@ -68,8 +68,7 @@ void dag_flat_jump(const struct flat *flat, int from, const struct target *targe
                    int indent);
 void dag_flat_way(const struct flat *flat, int way, int indent);
 void dag_flat_directive(const struct flat *flat, struct where where);
-/* PREFIX_NAME; the name of a term's level, from 1. */
-void dag_flat_constant(struct text *out, const char *prefix, const char *name);
+/* The name of a term's level, from 1. */
 const char *dag_flat_level(const struct dag *dag, const struct term *term, int level);
 /* Marks what the copy has gotos to, or what the way leads to. */
 void dag_flat_mark_labels(struct flat *flat, int copy);

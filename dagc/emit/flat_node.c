@@ -11,11 +11,6 @@ void dag_flat_directive(const struct flat *flat, struct where where)
         dag_line_at(flat->dag, flat->out, where);
 }
 
-static int same_target(const struct target *a, const struct target *b)
-{
-    return a->kind == b->kind && a->index == b->index;
-}
-
 /* Out of a function for a piece of the graph: by which exit; -1: the answer stays in it. */
 static int exit_of(const struct flat *flat, const struct node *node, int answer)
 {
@@ -27,8 +22,8 @@ static int exit_of(const struct flat *flat, const struct node *node, int answer)
 static int same_way_on(const struct flat *flat, const struct node *node, int a, int b)
 {
     return exit_of(flat, node, a) == exit_of(flat, node, b)
-           && same_target(&dag_flat_arc(flat, node, a)->target,
-                          &dag_flat_arc(flat, node, b)->target);
+           && dag_same_target(&dag_flat_arc(flat, node, a)->target,
+                              &dag_flat_arc(flat, node, b)->target);
 }
 
 /* Do all answers lead to one target? Then there is nothing to ask. */
@@ -92,19 +87,12 @@ void dag_flat_mark_labels(struct flat *flat, int copy)
     }
 }
 
-void dag_flat_constant(struct text *out, const char *prefix, const char *name)
-{
-    dag_print_upper(out, prefix);
-    dag_print(out, "_");
-    dag_print_upper(out, name);
-}
-
 /* In a part: the number of the node to go on with elsewhere, or ~decision. */
 static void print_jump_in_part(const struct flat *flat, int from, const struct target *target)
 {
     if (target->kind != TARGET_NODE) {
         dag_print(flat->out, "return ~(int)");
-        dag_flat_constant(flat->out, "decision", flat->dag->decisions[target->index].name);
+        dag_print_constant(flat->out, "decision", flat->dag->decisions[target->index].name);
         dag_print(flat->out, ";\n");
     } else if (dag_flat_part(flat, from)
                == dag_flat_part(flat, flat->dag->nodes[target->index].order))
@@ -143,7 +131,7 @@ void dag_flat_way(const struct flat *flat, int number, int indent)
     if (flat->flavour == FLAVOUR_COUNTED && way->checked)
         dag_print(flat->out, "counters->checks++;\n%*s", indent, "");
     dag_print(flat->out, "if (%sterms.%s_level >= ", flat->of, term->name);
-    dag_flat_constant(flat->out, term->name, dag_flat_level(flat->dag, term, way->cut));
+    dag_print_constant(flat->out, term->name, dag_flat_level(flat->dag, term, way->cut));
     dag_print(flat->out, ")%s\n%*s", above->cut > 0 ? " {" : "", indent + 4, "");
     dag_flat_way(flat, way->above, indent + 4);
     if (above->cut > 0)
@@ -172,7 +160,7 @@ void dag_flat_jump(const struct flat *flat, int from, const struct target *targe
         dag_print(flat->out, "goto leaf_%s;\n", flat->dag->decisions[target->index].name);
     else {
         dag_print(flat->out, "return ");
-        dag_flat_constant(flat->out, "decision", flat->dag->decisions[target->index].name);
+        dag_print_constant(flat->out, "decision", flat->dag->decisions[target->index].name);
         dag_print(flat->out, ";\n");
     }
 }
@@ -216,7 +204,7 @@ static void print_switch(const struct flat *flat, const struct node *node, const
         for (int j = i; j < node->arcs.count; j++)
             if (!done[j] && same_way_on(flat, node, i, j)) {
                 dag_print(flat->out, "    case ");
-                dag_flat_constant(flat->out, tool->name, answers[j].name);
+                dag_print_constant(flat->out, tool->name, answers[j].name);
                 dag_print(flat->out, ":\n");
                 done[j] = 2;
                 left--;
@@ -275,7 +263,7 @@ static void print_known(const struct flat *flat, const struct copy *copy)
                       high == 0 ? "absent on every path" : "checked: not every path has it");
         if (dag_flat_is_fact(flat, copy, term)) {
             dag_print(flat->out, "    KNOWN(%sterms.%s_level >= ", flat->of, t->name);
-            dag_flat_constant(flat->out, t->name, dag_flat_level(dag, t, low));
+            dag_print_constant(flat->out, t->name, dag_flat_level(dag, t, low));
             dag_print(flat->out, ");\n");
         }
     }

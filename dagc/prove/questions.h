@@ -49,12 +49,4 @@ static inline uint64_t dag_subgraph_of(const struct asking *side, const struct t
                                        : dag_mix(3, (uint64_t)target->index);
 }
 
-static inline int dag_reads_term(const struct dag *dag, struct span needs, int term)
-{
-    for (int i = needs.first; i < needs.first + needs.count; i++)
-        if (dag->needs[i].term == term)
-            return 1;
-    return 0;
-}
-
 #endif

@@ -15,15 +15,11 @@
 
 #include "prove/compile.h"
 #include "analyse/analyse.h"
+#include "emit/emit.h"
 #include "emit/headers.h"
 #include "prove/proving.h"
 
 enum { OPTIMISED_NODES = 1000 };
-
-static const char *c_type(const struct dag *dag, int type)
-{
-    return dag->types[type].base == BASE_INTEGER ? "int" : "double";
-}
 
 /* d->terms.NAME = what it is at `level`, a C expression. */
 static void print_value(const struct dag *dag, struct text *out, int number, const char *level)
@@ -34,8 +30,8 @@ static void print_value(const struct dag *dag, struct text *out, int number, con
         dag_print(out, "        d->terms.%s", term->name);
         if (length > 1)
             dag_print(out, "[%d]", k);
-        dag_print(out, " = (%s)(d->record->known[%d * %d + (%s)] + %d);\n", c_type(dag, term->type),
-                  number, PROVE_LEVELS, level, k);
+        dag_print(out, " = (%s)(d->record->known[%d * %d + (%s)] + %d);\n",
+                  dag_c_type(dag, term->type), number, PROVE_LEVELS, level, k);
     }
     dag_print(out, "        d->terms.%s_level = (unsigned char)(%s);\n", term->name, level);
 }
@@ -46,7 +42,7 @@ static void print_tool(struct dag *dag, struct text *out, int number, int width)
     const struct parameter *parameters = &dag->parameters[tool->parameters.first];
     dag_print(out, "TOOL enum %s_answer tool_%s(struct discussion *d", tool->name, tool->name);
     for (int i = 0; i < tool->parameters.count; i++)
-        dag_print(out, ", %s p%d", c_type(dag, parameters[i].type), i);
+        dag_print(out, ", %s p%d", dag_c_type(dag, parameters[i].type), i);
     dag_print(out, ")\n{\n    double given[%d] = {0};\n    int answer;\n", width);
     for (int i = 0; i < tool->parameters.count; i++)
         dag_print(out, "    given[%d] = p%d;\n", i, i);
@@ -71,7 +67,7 @@ static void print_term(const struct dag *dag, struct text *out, int number, int 
     const struct type *type = &dag->types[term->type];
     int levels = term->levels.count;
     dag_print(out, "TOOL %s%s%sterm_%s(struct discussion *d", type->length > 1 ? "const " : "",
-              c_type(dag, term->type), type->length > 1 ? " *" : " ", term->name);
+              dag_c_type(dag, term->type), type->length > 1 ? " *" : " ", term->name);
     if (levels > 0)
         dag_print(out, ", enum %s_level wanted", term->name);
     dag_print(out, ")\n{\n    double given[%d] = {0};\n    int level = %s;\n", width,
@@ -250,7 +246,7 @@ static void print_compiled(const struct dag *dag, struct text *out,
         dag_print(out, "0}, prove_ends_%d[] = {", i);
         for (int k = 0; k < oracle->parameters.count; k++)
             dag_print(out, "offsetof(struct %s_parameters, %s) + sizeof(%s), ", name,
-                      parameters[k].name, c_type(dag, parameters[k].type));
+                      parameters[k].name, dag_c_type(dag, parameters[k].type));
         dag_print(out, "0};\n");
     }
     dag_print(out, "extern const struct prove_compiled prove_compiled[];\n"
