@@ -1,7 +1,6 @@
 /* api_error.c - measured error and mended solutions.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
-#include <math.h>
 #include "engine/api.h"
 
 /* A share of the rays that links have cast, and `more` besides, but no fewer than `least`. */

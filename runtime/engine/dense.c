@@ -11,7 +11,6 @@
  * loses digits. The matrix is made anew for each band, since no room is had for two.
  * [Dense solution: Goral et al. 1984; LAPACK for LU]
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

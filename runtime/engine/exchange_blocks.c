@@ -9,7 +9,6 @@
 #include <string.h>
 #include "engine/exchange_blocks.h"
 #include "engine/exchange_halves.h"
-#include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
 #include "terms/blockers.h"
 

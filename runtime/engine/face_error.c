@@ -27,7 +27,6 @@
 #include "engine/reflected_light.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
-#include "util/thread_pool.h"
 
 struct counted {
     struct polygon_rows rows; /* the polygons whose values are here */

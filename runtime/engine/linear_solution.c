@@ -8,7 +8,6 @@
  * SPDX-License-Identifier: MIT */
 #include "engine/linear_solution.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/linear_transport.h"

@@ -21,7 +21,6 @@
 #include "engine/tail_error.h"
 #include "engine/transport.h"
 #include "kernel/constants.h"
-#include "kernel/hash.h"
 #include "particles/power_balance.h"
 #include "util/clock.h"
 #include "util/thread_pool.h"

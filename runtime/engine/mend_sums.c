@@ -1,6 +1,5 @@
 /* mend_sums.c - see mend_sums.h.
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/leaf_count.h"

@@ -6,7 +6,6 @@
  * SPDX-License-Identifier: MIT */
 #include "engine/solve_state.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -11,7 +11,6 @@
  * of one body at most, also where a stack is a solid and its boxes are.
  * [a closed surface that each of its planes supports is its hull's; derived here]
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/bodies.h"
@@ -21,7 +20,6 @@
 #include "hierarchy/places.h"
 #include "hierarchy/polygon.h"
 #include "hierarchy/reach.h"
-#include "kernel/constants.h"
 #include "util/array.h"
 
 /* Is the mate across an edge not of the same convex solid? Who has its front on another side or

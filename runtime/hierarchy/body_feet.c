@@ -15,7 +15,6 @@
 #include "hierarchy/body_rest.h"
 #include "hierarchy/lids.h"
 #include "hierarchy/reach.h"
-#include "kernel/constants.h"
 #include "util/array.h"
 
 static const uint32_t NO_FACE = UINT32_MAX;

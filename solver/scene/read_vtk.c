@@ -6,7 +6,6 @@
  * as many points each, from version 5 on offsets and points of all. What POINT_DATA and CELL_DATA
  * begin is data on points and cells up to the file's end. [VTK file formats, Simple Legacy Formats]
  * SPDX-License-Identifier: MIT */
-#include <stdio.h>
 #include <string.h>
 
 #include "scene/read_meshes.h"

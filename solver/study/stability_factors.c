@@ -1,8 +1,8 @@
 /* stability_factors.c - cases about form factors: near, touching, crossing, thin, far.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include "study/closed_forms.h"
 #include "study/stability.h"
-#include "study/stability_known.h"
 
 static struct made_scene one_grey(void)
 {

@@ -9,7 +9,6 @@
  * measure of the solution: in all the same, but by polygon the error where it ends, not where it
  * begins.
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include "output/json_file.h"
@@ -18,7 +17,6 @@
 #include "util/device.h"
 #include "util/open_oracle.h"
 #include "util/progress.h"
-#include "util/report.h"
 #include "util/solved.h"
 
 /* Rows of the table: a way of light before the causes that are its own. */

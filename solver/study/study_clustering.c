@@ -22,7 +22,6 @@
 #include "util/solved.h"
 #include "study/faces_reference.h"
 #include "util/progress.h"
-#include "util/report.h"
 
 enum { STRATEGIES_MAX = 16 };
 

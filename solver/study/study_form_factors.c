@@ -10,7 +10,6 @@
  * too much never gets through. The contour's own error is told by an integration of another kind,
  * over some of the links. Further tables go by distance of the centres over the sum of the radii.
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include "output/chart.h"
@@ -19,7 +18,6 @@
 #include "util/atomic_file.h"
 #include "util/ends_with.h"
 #include "util/open_oracle.h"
-#include "util/report.h"
 
 struct table {
     const struct options *options;

@@ -7,7 +7,6 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <dlfcn.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,6 @@
  * and that is what its row sums to; of a side that is meshed, what its rows sum to in the mean.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include "radiosity.h"
 #include "runtime/chance.h"

@@ -4,7 +4,6 @@
  * lands: of a floor that is turned over F = .1998 (Howell's C-11), of a wall that is (1 - F) / 4.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <math.h>
 #include "radiosity.h"
 #include "suite.h"
 

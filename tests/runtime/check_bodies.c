@@ -3,7 +3,6 @@
  * cut out; and what pairs of faces exchange past one of many, by its outline, against pair by pair.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include "engine/exchange_horizon.h"
 #include "kernel/polygon_factor.h"

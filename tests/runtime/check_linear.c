@@ -9,7 +9,6 @@
 #include "engine/linear_coupling.h"
 #include "engine/linear_solution.h"
 #include "engine/linear_transport.h"
-#include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/surface.h"
 #include "runtime/make_solve.h"

@@ -10,7 +10,6 @@
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/ray_split.h"
-#include "kernel/constants.h"
 #include "suite.h"
 
 struct cover {

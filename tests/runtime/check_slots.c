@@ -6,7 +6,6 @@
  * rectangle across from it. [Howell's catalog, B-3]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <stdlib.h>
 #include "radiosity.h"
 #include "runtime/chance.h"
 #include "runtime/make_polygons.h"

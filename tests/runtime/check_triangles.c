@@ -6,7 +6,6 @@
 #include <check.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "geometry.h"
 #include "hierarchy/polygon.h"
 #include "suite.h"

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "command.h"
 #include "folder.h"
 #include "study/closed_forms.h"

@@ -6,7 +6,6 @@
 #include <unistd.h>
 #include "captured.h"
 #include "suite.h"
-#include "util/clock.h"
 #include "util/progress.h"
 
 /* What is written to standard error when the times of these shares are told, each as if it were

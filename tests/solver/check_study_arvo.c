@@ -8,11 +8,9 @@
  * Galerkin's at n = 3, printed there as .1711, is .2394565 - .0684102 = .171046, by closed forms.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "command.h"
 #include "folder.h"
 #include "study/arvo.h"

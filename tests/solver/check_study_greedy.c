@@ -4,7 +4,6 @@
 #include <check.h>
 #include <jansson.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "study/arvo.h"

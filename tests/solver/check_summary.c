@@ -1,7 +1,6 @@
 /* check_summary.c - what the summary says of a solve that has not converged, and why.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "captured.h"

@@ -9,7 +9,6 @@
 #include "geometry.h"
 #include "util/array.h"
 #include "util/atomic_file.h"
-#include "util/report.h"
 
 /* Of a polygon's size: a corner farther off the others' plane makes it bent. Scenes keep planes to
  * about 5e-5. */

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include "scene/read_scene.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "util/report.h"
