@@ -24,7 +24,7 @@ static int check_points(RadSolution solution, const struct RadGatherPoint *point
             return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                             "point %zu of %zu is at no finite place", i, count);
         /* Embree ends the program where a ray comes from beyond its numbers */
-        const struct element *e = &h->elements[h->face_element[p->face]];
+        const struct element *e = hierarchy_surface(h, p->face);
         if (polygon_distance(p->position, e->vertex, e->vertices, e->normal)
             > h->elements[0].radius)
             return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,

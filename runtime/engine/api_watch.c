@@ -138,7 +138,7 @@ int radFindFaceAt(RadSolution solution, const double point[3], uint32_t *element
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
                         "the point is not finite, or beyond 3.4e38");
     for (uint32_t i = 0; i < h->face_count; i++) {
-        const struct element *e = &h->elements[h->face_element[i]];
+        const struct element *e = hierarchy_surface(h, i);
         const double d = h->faces[i].back
                              ? (double)INFINITY
                              : polygon_distance(point, e->vertex, e->vertices, e->normal);

@@ -55,7 +55,7 @@ int cause_line_open(struct cause_line *line, const struct solve *s, uint64_t str
         return -1;
     }
     for (uint32_t i = 0; i < h->face_count; i++) {
-        const struct element *e = &h->elements[h->face_element[i]];
+        const struct element *e = hierarchy_surface(h, i);
         area += s->problem.whitest[i] > 0 ? e->area : 0;
         line->reflected += e->area * shown(s, h->face_element[i]);
     }

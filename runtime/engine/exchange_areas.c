@@ -73,7 +73,7 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
         m->input[p] = i;
         m->next[p] = m->first[i];
         m->first[i] = p;
-        m->area[i] += m->tree->h.elements[m->tree->h.face_element[face]].area;
+        m->area[i] += hierarchy_surface(&m->tree->h, face)->area;
     }
     return 0;
 }

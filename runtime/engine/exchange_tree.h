@@ -32,7 +32,7 @@ void exchange_tree_close(struct exchange_tree *t);
 static inline const struct element *exchange_tree_face(const struct exchange_tree *t,
                                                        uint32_t place)
 {
-    return &t->h.elements[t->h.face_element[t->h.order[place]]];
+    return hierarchy_surface(&t->h, t->h.order[place]);
 }
 
 #endif

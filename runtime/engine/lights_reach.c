@@ -37,11 +37,11 @@ int lights_reach(const struct problem *p, const struct hierarchy *h)
         if (h->faces[i].light != FACE_DARK && p->whitest[i] > 0)
             white[count++] = i;
     for (uint32_t i = 0; i < h->face_count && count && !reach; i++) {
-        const struct element *s = &h->elements[h->face_element[i]];
+        const struct element *s = hierarchy_surface(h, i);
         if (!emits(p, i))
             continue;
         for (uint32_t j = 0; j < count && !reach; j++) {
-            const struct element *r = &h->elements[h->face_element[white[j]]];
+            const struct element *r = hierarchy_surface(h, white[j]);
             reach = ++pairs > PAIRS || (is_in_front(r, s) && is_in_front(s, r));
         }
     }

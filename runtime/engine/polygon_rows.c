@@ -136,7 +136,7 @@ double *polygon_areas(const struct problem *p, const struct hierarchy *h)
 {
     double *areas = calloc((size_t)p->scene->input_count + 1, sizeof *areas);
     for (uint32_t i = 0; i < h->face_count && areas; i++)
-        areas[h->faces[i].input] += h->elements[h->face_element[i]].area;
+        areas[h->faces[i].input] += hierarchy_surface(h, i)->area;
     return areas;
 }
 
@@ -144,6 +144,6 @@ double large_area(const struct problem *p, const struct hierarchy *h)
 {
     double area = 0;
     for (uint32_t i = 0; i < h->face_count; i++)
-        area += p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0;
+        area += p->whitest[i] > 0 ? hierarchy_surface(h, i)->area : 0;
     return FACE_ERROR_LARGE * area;
 }

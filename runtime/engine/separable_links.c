@@ -155,8 +155,7 @@ static void place_faces(const void *links, size_t from, size_t to)
     for (size_t i = from; i < to; i++) {
         c->place[h->order[i]] = (uint32_t)i;
         c->taken[h->order[i]] = 1;
-        separable_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low,
-                            c->unit);
+        separable_faces_set(&c->faces, i, hierarchy_surface(h, h->order[i]), h->low, c->unit);
     }
 }
 

@@ -36,7 +36,7 @@ static struct whole whole_of(const struct hierarchy *h, uint32_t face)
         i--;
     for (; i < h->face_count && faces[i].input == of->input; i++)
         if (!faces[i].back == !of->back) {
-            whole.area += h->elements[h->face_element[i]].area;
+            whole.area += hierarchy_surface(h, i)->area;
             whole.parts++;
         }
     return whole;

@@ -21,11 +21,6 @@ struct finder {
     struct placed_face *items; /* [faces] */
 };
 
-static const struct element *face_of(const struct finder *b, uint32_t face)
-{
-    return &b->plain->elements[b->plain->face_element[face]];
-}
-
 static int compare_key(const struct placed_face *a, const struct placed_face *b, int k)
 {
     return a->key[k] < b->key[k]   ? -1
@@ -61,9 +56,9 @@ static int by_face(const void *a, const void *b)
 static int one_plane(const struct finder *b, const struct placed_face *items, uint32_t count)
 {
     double n[3] = {0, 0, 0}, at[3] = {0, 0, 0}, area = 0;
-    const struct element *first = face_of(b, items[0].face);
+    const struct element *first = hierarchy_surface(b->plain, items[0].face);
     for (uint32_t i = 0; i < count; i++) {
-        const struct element *e = face_of(b, items[i].face);
+        const struct element *e = hierarchy_surface(b->plain, items[i].face);
         area += e->area;
         for (int k = 0; k < 3; k++) {
             n[k] += e->area * e->normal[k];
@@ -76,7 +71,7 @@ static int one_plane(const struct finder *b, const struct placed_face *items, ui
         at[k] = first->centre[k] + at[k] / area;
     }
     for (uint32_t i = 0; i < count; i++) {
-        const struct element *e = face_of(b, items[i].face);
+        const struct element *e = hierarchy_surface(b->plain, items[i].face);
         if (!(dot3(e->normal, n) > GROUP_COSINE)
             || b->plain->faces[e->face].back != b->plain->faces[first->face].back)
             return 0;
@@ -125,7 +120,7 @@ static int place_faces(struct finder *b)
     for (int k = 0; k < 3; k++)
         size = fmax(size, h->high[k] - h->low[k]);
     for (uint32_t i = 0; i < h->face_count; i++) {
-        const struct element *e = face_of(b, i);
+        const struct element *e = hierarchy_surface(b->plain, i);
         struct placed_face *x = &b->items[i];
         x->face = i;
         for (int k = 0; k < 3; k++)

@@ -43,17 +43,12 @@ struct builder {
     struct face_share *shares; /* [face_count]: by place in the tree's order */
 };
 
-static const struct element *face_of(const struct builder *b, uint32_t face)
-{
-    return &b->plain->elements[b->plain->face_element[face]];
-}
-
 static void find_centres(struct builder *b)
 {
     for (uint32_t i = 0; i < b->planes.count; i++) {
         double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
         for (uint32_t j = b->planes.groups[i].from; j < b->planes.groups[i].to; j++) {
-            const struct element *e = face_of(b, b->planes.order[j]);
+            const struct element *e = hierarchy_surface(b->plain, b->planes.order[j]);
             for (int c = 0; c < e->vertices; c++)
                 for (int k = 0; k < 3; k++) {
                     low[k] = e->vertex[c][k] < low[k] ? e->vertex[c][k] : low[k];
@@ -89,7 +84,7 @@ static void make_face(struct builder *b, uint32_t index, uint32_t at)
     struct hierarchy *h = b->h;
     struct element *e = &h->elements[index];
     uint32_t parent = e->parent, face = h->order[at];
-    *e = *face_of(b, face);
+    *e = *hierarchy_surface(b->plain, face);
     e->parent = parent;
     e->radiosity = 1;
     e->reflectance = 0;
@@ -288,7 +283,7 @@ static void make_cluster_element(struct builder *b, uint32_t index)
     struct bounds box;
     bounds_empty(&box);
     for (uint32_t i = range.from; i < range.to; i++) {
-        const struct element *s = face_of(b, b->h->order[i]);
+        const struct element *s = hierarchy_surface(b->plain, b->h->order[i]);
         struct bounds own;
         bounds_empty(&own);
         for (int c = 0; c < s->vertices; c++)

@@ -44,11 +44,6 @@ void outliner_close(struct outliner *o)
     free(o->place);
 }
 
-static const struct element *face_of(const struct outliner *o, uint32_t face)
-{
-    return &o->plain->elements[o->plain->face_element[face]];
-}
-
 static void in_frame(const struct group_frame *f, const double p[3], double uv[2])
 {
     double w[3];
@@ -61,7 +56,7 @@ static size_t find_hull(struct outliner *o, const struct group_frame *f, struct 
 {
     size_t n = 0;
     for (uint32_t i = 0; i < faces.count; i++) {
-        const struct element *e = face_of(o, faces.face[i]);
+        const struct element *e = hierarchy_surface(o->plain, faces.face[i]);
         for (int c = 0; c < e->vertices; c++)
             in_frame(f, e->vertex[c], o->points[n++]);
     }
@@ -72,7 +67,7 @@ static double area_of(const struct outliner *o, struct group_faces faces)
 {
     double area = 0;
     for (uint32_t i = 0; i < faces.count; i++)
-        area += face_of(o, faces.face[i])->area;
+        area += hierarchy_surface(o->plain, faces.face[i])->area;
     return area;
 }
 
@@ -91,9 +86,9 @@ static void finish_axes(struct group_frame *f)
 static void find_plane(const struct outliner *o, struct group_faces faces, struct group_frame *f)
 {
     double n[3] = {0, 0, 0}, at[3] = {0, 0, 0}, area = 0;
-    const double *first = face_of(o, faces.face[0])->centre;
+    const double *first = hierarchy_surface(o->plain, faces.face[0])->centre;
     for (uint32_t i = 0; i < faces.count; i++) {
-        const struct element *e = face_of(o, faces.face[i]);
+        const struct element *e = hierarchy_surface(o->plain, faces.face[i]);
         area += e->area;
         for (int k = 0; k < 3; k++) {
             n[k] += e->area * e->normal[k];
@@ -109,11 +104,11 @@ static void find_plane(const struct outliner *o, struct group_faces faces, struc
 
 void group_frame_of(struct outliner *o, struct group_faces faces, struct group_frame *f)
 {
-    const struct element *e = face_of(o, faces.face[0]);
+    const struct element *e = hierarchy_surface(o->plain, faces.face[0]);
     double best = 0;
     for (uint32_t i = 0; i < faces.count; i++)
-        if (face_of(o, faces.face[i])->area > e->area * (1 + 1e-9))
-            e = face_of(o, faces.face[i]);
+        if (hierarchy_surface(o->plain, faces.face[i])->area > e->area * (1 + 1e-9))
+            e = hierarchy_surface(o->plain, faces.face[i]);
     find_plane(o, faces, f);
     for (int c = 0; c < e->vertices; c++) { /* along its longest edge for now */
         double edge[3];
@@ -145,7 +140,7 @@ void group_bounds(const struct outliner *o, const struct group_frame *f, struct 
     low[0] = low[1] = INFINITY;
     high[0] = high[1] = -INFINITY;
     for (uint32_t i = 0; i < faces.count; i++) {
-        const struct element *e = face_of(o, faces.face[i]);
+        const struct element *e = hierarchy_surface(o->plain, faces.face[i]);
         for (int c = 0; c < e->vertices; c++) {
             double uv[2];
             in_frame(f, e->vertex[c], uv);
@@ -238,7 +233,7 @@ static void find_places(struct outliner *o, struct group_faces faces)
 {
     size_t n = 0;
     for (uint32_t i = 0; i < faces.count; i++) {
-        const struct element *g = face_of(o, faces.face[i]);
+        const struct element *g = hierarchy_surface(o->plain, faces.face[i]);
         for (int c = 0; c < g->vertices; c++, n++)
             o->corners[n] = (struct corner){g->vertex[c], n};
     }
@@ -258,7 +253,7 @@ int group_tiles(struct outliner *o, const struct group_frame *f, struct group_fa
         return 0;
     find_places(o, faces);
     for (uint32_t i = 0; i < faces.count; i++) {
-        const struct element *g = face_of(o, faces.face[i]);
+        const struct element *g = hierarchy_surface(o->plain, faces.face[i]);
         for (int c = 0; c < g->vertices; c++) {
             const int next = c + 1 < g->vertices ? c + 1 : 0;
             double end[2][2];

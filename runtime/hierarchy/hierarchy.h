@@ -73,8 +73,6 @@ struct hierarchy {
     double flat; /* with groups: how far from their planes their faces may reach (m) */
 };
 
-enum { NO_ELEMENT = 0 }; /* as a child index: not split */
-
 /* Build the clusters and one element per face (deterministic, independent of threads), by the
  * default strategy and one thread. The faces are borrowed and must outlive the hierarchy. Returns
  * 0, or -1 when out of memory. */

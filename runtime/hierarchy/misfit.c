@@ -68,7 +68,7 @@ static int of_corners(const struct hierarchy *h, double *most)
     double(*box)[2][3] = malloc(room * sizeof *box);
     const int failed = !corners || !place || !box;
     for (uint32_t f = 0; f < h->face_count && !failed; f++) {
-        const struct element *e = &h->elements[h->face_element[f]];
+        const struct element *e = hierarchy_surface(h, f);
         for (int i = 0; i < e->vertices; i++, count++)
             corners[count] = (struct corner){e->vertex[i], count};
     }

@@ -97,7 +97,7 @@ static void halve(struct emitter *emitter, uint32_t count, const struct hierarch
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t i = 0; i < count; i++) {
-        const double *centre = h->elements[h->face_element[emitter[i].face]].centre;
+        const double *centre = hierarchy_surface(h, emitter[i].face)->centre;
         for (int k = 0; k < 3; k++) {
             low[k] = fmin(low[k], centre[k]);
             high[k] = fmax(high[k], centre[k]);
@@ -106,7 +106,7 @@ static void halve(struct emitter *emitter, uint32_t count, const struct hierarch
     int axis = high[1] - low[1] > high[0] - low[0];
     axis = high[2] - low[2] > high[axis] - low[axis] ? 2 : axis;
     for (uint32_t i = 0; i < count; i++)
-        emitter[i].along = h->elements[h->face_element[emitter[i].face]].centre[axis];
+        emitter[i].along = hierarchy_surface(h, emitter[i].face)->centre[axis];
     divide(emitter, count, first_half(count));
 }
 
@@ -116,7 +116,7 @@ static void build(struct light_tree *tree, const struct hierarchy *h, const doub
     struct light_node *node = &tree->node[at];
     if (to - from == 1) {
         uint32_t face = emitter[from].face;
-        const struct element *e = &h->elements[h->face_element[face]];
+        const struct element *e = hierarchy_surface(h, face);
         *node = (struct light_node){.radius = e->radius, .along = 1};
         memcpy(node->centre, e->centre, sizeof node->centre);
         memcpy(node->axis, e->normal, sizeof node->axis);

@@ -75,8 +75,7 @@ static void walk_some(const void *walks, size_t from, size_t to)
     const struct walks *w = walks;
     for (size_t i = from; i < to; i++) {
         int ended;
-        *w->taken += walk_light(w->rays, (uint32_t)i,
-                                &w->h->elements[w->h->face_element[w->start[i]]], &ended);
+        *w->taken += walk_light(w->rays, (uint32_t)i, hierarchy_surface(w->h, w->start[i]), &ended);
         *w->ends += ended;
     }
 }

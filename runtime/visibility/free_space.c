@@ -70,7 +70,7 @@ static int lies_in(const struct element *e, const struct element *wall, double f
 /* Is all of the scene on one side of the face? */
 static int is_wall(struct walk *w, struct walls *walls, uint32_t face)
 {
-    const struct element *e = &w->h->elements[w->h->face_element[face]];
+    const struct element *e = hierarchy_surface(w->h, face);
     for (uint32_t i = 0; i < walls->found && i < WALLS; i++)
         if (lies_in(e, walls->last[i], w->flat))
             return 1;

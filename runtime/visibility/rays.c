@@ -190,7 +190,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     for (uint32_t i = 0; i < h->face_count; i++) {
         if (h->faces[i].light == FACE_DARK)
             continue;
-        double a = h->elements[h->face_element[i]].area;
+        double a = hierarchy_surface(h, i)->area;
         area += a;
         emitted += a * exitance[i];
         reflected += a * reflectance[i];

@@ -238,11 +238,11 @@ START_TEST(test_measures)
         if (e->vertices) {
             must(h.face_element[e->face] == i);
             must(h.range[i].to - h.range[i].from == 1 && h.order[h.range[i].from] == e->face);
-            must(e->id == first.elements[first.face_element[e->face]].id);
+            must(e->id == hierarchy_surface(&first, e->face)->id);
             continue;
         }
         for (uint32_t f = h.range[i].from; f < h.range[i].to; f++) {
-            const struct element *x = &h.elements[h.face_element[h.order[f]]];
+            const struct element *x = hierarchy_surface(&h, h.order[f]);
             uint32_t at = h.face_element[h.order[f]];
             while (at != i && at != 0)
                 at = h.elements[at].parent;
@@ -267,7 +267,7 @@ START_TEST(test_measures)
             continue;
         }
         for (uint32_t f = h.range[i].from; f < h.range[i].to; f++) {
-            double c = dot3(axis, h.elements[h.face_element[h.order[f]]].normal) / size;
+            double c = dot3(axis, hierarchy_surface(&h, h.order[f])->normal) / size;
             cone = c < cone ? c : cone;
         }
         must(fabs(e->cone - cone) <= 1e-12);

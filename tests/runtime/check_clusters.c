@@ -80,7 +80,7 @@ static double difference(const struct solve *s, const struct solve *t)
 {
     double off = 0, all = 0;
     for (uint32_t i = 0; i < s->problem.scene->face_count; i++) {
-        double a = s->hierarchy.elements[s->hierarchy.face_element[i]].area;
+        double a = hierarchy_surface(&s->hierarchy, i)->area;
         off += a * fabs(face_value(s, i) - face_value(t, i));
         all += a * face_value(t, i);
     }
@@ -253,7 +253,7 @@ START_TEST(test_furnace)
         worst[closure] = mean[closure] = gain[closure] = 0;
         for (uint32_t i = 0; i < scene.face_count; i++) {
             double off = fabs(face_value(&s, i) / 2 - 1),
-                   a = s.hierarchy.elements[s.hierarchy.face_element[i]].area;
+                   a = hierarchy_surface(&s.hierarchy, i)->area;
             worst[closure] = off > worst[closure] ? off : worst[closure];
             mean[closure] += a * off;
             gain[closure] += a * (face_value(&s, i) / 2 - 1);
@@ -355,7 +355,7 @@ START_TEST(test_kok_keeps_power)
     solved(&s, &scene, "kok", 2, CLOSURE_NONE, "relative=0.2");
     double sum = 0, off = 0, area = 0;
     for (uint32_t f = 0; f < scene.face_count; f++) {
-        double a = s.hierarchy.elements[s.hierarchy.face_element[f]].area;
+        double a = hierarchy_surface(&s.hierarchy, f)->area;
         sum += a * face_value(&s, f);
         off += a * fabs(face_value(&s, f) - 1);
         area += a;

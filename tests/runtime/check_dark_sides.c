@@ -325,7 +325,7 @@ static void light_of(enum material material, int inward, const char *oracle, int
     for (uint32_t p = 0; p < world.count; p++)
         light[p] = 0;
     for (uint32_t i = 0; i < scene.face_count; i++) {
-        const struct element *e = &s.hierarchy.elements[s.hierarchy.face_element[i]];
+        const struct element *e = hierarchy_surface(&s.hierarchy, i);
         const double bare = s.operator.uncovered[s.hierarchy.face_element[i]];
         if (scene.lit && scene.lit[i].light == FACE_DARK)
             ck_assert(bare <= 0 && face_radiosity(&s, i) <= 0);
@@ -365,7 +365,7 @@ START_TEST(test_tree)
         uint32_t held = h.range[0].to;
         double area = 0;
         for (uint32_t i = 0; i < h.face_count; i++) {
-            const struct element *e = &h.elements[h.face_element[h.order[i]]];
+            const struct element *e = hierarchy_surface(&h, h.order[i]);
             const struct face *f = &h.faces[h.order[i]];
             ck_assert_uint_eq(e->face, h.order[i]);
             ck_assert_int_eq(f->light == FACE_DARK, i >= held);

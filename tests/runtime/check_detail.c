@@ -26,7 +26,7 @@ static double light_at(const struct solve *s, uint32_t face, const double p[3])
 static void look_at_faces(const struct solve *s, double (*p)[3], double *light)
 {
     for (uint32_t f = 0; f < s->hierarchy.face_count; f++) {
-        const struct element *e = &s->hierarchy.elements[s->hierarchy.face_element[f]];
+        const struct element *e = hierarchy_surface(&s->hierarchy, f);
         for (int k = 0; k < 3; k++)
             p[f][k] = 0.37 * e->vertex[0][k] + 0.41 * e->vertex[1][k] + 0.22 * e->vertex[2][k];
         light[f] = light_at(s, f, p[f]);

@@ -238,7 +238,7 @@ static void split_boxes(double dark)
     double chi = 0, walls[2] = {0, 0};
     for (uint32_t f = 0; f < h->face_count; f++) {
         double true_light = f < WALL ? 1 : dark, mean = 0, square = 0;
-        double area = h->elements[h->face_element[f]].area;
+        double area = hierarchy_surface(h, f)->area;
         for (int r = 0; r < REPLICATES; r++) {
             double H = tally_face(&tally, r, f, 0) / area / true_light;
             mean += H / REPLICATES;

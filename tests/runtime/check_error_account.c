@@ -244,7 +244,7 @@ static void judge(struct results *r, const struct scene *scene, const struct tru
     make_account(&s, NULL, &report);
     double area = 0;
     for (uint32_t i = 0; i < s.hierarchy.face_count; i++)
-        area += s.hierarchy.elements[s.hierarchy.face_element[i]].area;
+        area += hierarchy_surface(&s.hierarchy, i)->area;
     struct RadErrorNorms e = true_error(&s, truth, s.hierarchy.count < 2000 ? 6 : 3),
                          b = report.bound[RAD_CATEGORY_TOGETHER],
                          about = report.estimate[RAD_CATEGORY_TOGETHER];
@@ -519,7 +519,7 @@ START_TEST(test_perturbed)
             }
             face_means(&scene, after);
             for (uint32_t k = 0; k < 6; k++) {
-                double area = s.hierarchy.elements[s.hierarchy.face_element[k]].area;
+                double area = hierarchy_surface(&s.hierarchy, k)->area;
                 moved += area * fabs(after[k] - before[k]);
                 most = fmax(most, fabs(after[k] - before[k]));
             }

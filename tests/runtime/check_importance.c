@@ -401,9 +401,8 @@ START_TEST(test_residual_groups)
         for (int k = 0; k < 4; k++) {
             double sum = 0;
             for (uint32_t f = 1; f <= 16; f++)
-                sum += 20
-                       * factor_at(e->vertex[k], e->normal,
-                                   &s.hierarchy.elements[s.hierarchy.face_element[f]], 2);
+                sum +=
+                    20 * factor_at(e->vertex[k], e->normal, hierarchy_surface(&s.hierarchy, f), 2);
             worst = fmax(worst, 0.5 * fabs(sum - s.state.irradiance[i]));
         }
     }

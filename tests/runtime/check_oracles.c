@@ -269,7 +269,7 @@ START_TEST(test_promise)
         double wrong = power_error(&s, reference, k, &all), unsure = 0;
         for (uint32_t i = 0; i < scene.face_count; i++)
             unsure += s.problem.reflectance[(size_t)i * s.problem.bands + k]
-                      * s.hierarchy.elements[s.hierarchy.face_element[i]].area
+                      * hierarchy_surface(&s.hierarchy, i)->area
                       * noise[(size_t)i * s.problem.bands + k];
         printf("thermal %s, band %u: %.3g W wrong (reference +- %.2g W), %g W promised, of %.4g W; "
                "%zu links, %llu whole by a guard\n",

@@ -326,8 +326,7 @@ static int covered(const struct solve *s, const double *truth, const struct tall
         for (uint32_t k = 0; k < bands; k++) {
             const double H = truth[f * bands + k],
                          changed = H * fmax(0, 1 + off * chance_normal(c));
-            const double area =
-                p->reflectance[f * bands + k] * h->elements[h->face_element[f]].area;
+            const double area = p->reflectance[f * bands + k] * hierarchy_surface(h, f)->area;
             solved[h->face_element[f] * bands + k] = changed;
             polygon[h->faces[f].input * bands + k] += area * (changed - H);
             all += area * H;

@@ -173,12 +173,12 @@ static void link_gaps(uint32_t receivers, double *got, double *should, double *d
     ck_assert_int_eq(
         separable_links_open(&light, &h, &r, 1, 1, 0, (struct face_range){0, h.face_count}), 0);
     for (uint32_t i = 0; i < receivers; i++) {
-        const struct element *x = &h.elements[h.face_element[i]];
+        const struct element *x = hierarchy_surface(&h, i);
         double row = x->area * separable_links_row(&light, h.face_element[i]), known = 0;
         for (uint32_t j = receivers; j < faces_count; j++)
             known += alone[i] && alone[j]
                          ? 0
-                         : pair(x, &h.elements[h.face_element[j]]) / 3.14159265358979323846;
+                         : pair(x, hierarchy_surface(&h, j)) / 3.14159265358979323846;
         sum += row;
         truth += known;
         off += fabs(row - known);

@@ -84,7 +84,7 @@ static int crosses_any(const struct world *w, const struct segment *g, double sl
 static int grazes(const struct world *w, const struct segment *g)
 {
     for (uint32_t i = 0; i < w->h.face_count; i++) {
-        const struct element *e = &w->h.elements[w->h.face_element[i]];
+        const struct element *e = hierarchy_surface(&w->h, i);
         if (fabs(height3(g->from, e->centre, e->normal)) < GRAZE * w->host->ray_offset
             || fabs(height3(g->to, e->centre, e->normal)) < GRAZE * w->host->ray_offset)
             return 1;

@@ -93,7 +93,7 @@ START_TEST(test_tables)
         open_tree(&t, &s);
         for (uint32_t f = 2; f < s.face_count; f++)
             ck_assert_int_eq(t.bodies.of[t.h.face_element[f]] != 0
-                                 || t.bodies.of[t.h.elements[t.h.face_element[f]].parent] != 0,
+                                 || t.bodies.of[hierarchy_surface(&t.h, f)->parent] != 0,
                              scene % 4 < 2 || f < 2 + 6 + 16);
         for (int i = 0; i < 40; i++) {
             x[i][0] = chance(&state);
@@ -264,7 +264,7 @@ START_TEST(test_foot)
     open_tree(&t, &s);
     const uint32_t of = t.bodies.of[t.h.face_element[first]]
                             ? t.bodies.of[t.h.face_element[first]]
-                            : t.bodies.of[t.h.elements[t.h.face_element[first]].parent];
+                            : t.bodies.of[hierarchy_surface(&t.h, first)->parent];
     ck_assert_uint_ne(of, 0);
     ck_assert_int_eq(t.bodies.body[of - 1].faces, 5);
     ck_assert_int_eq(t.bodies.body[of - 1].lids, 1);

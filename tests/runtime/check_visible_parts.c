@@ -32,8 +32,8 @@ static struct discussion discuss_faces(const struct world *w, uint32_t r, uint32
 {
     struct discussion d;
     memset(&d, 0, sizeof d);
-    d.receiver = &w->h.elements[w->h.face_element[r]];
-    d.emitter = &w->h.elements[w->h.face_element[s]];
+    d.receiver = hierarchy_surface(&w->h, r);
+    d.emitter = hierarchy_surface(&w->h, s);
     d.host = w->host;
     return d;
 }
@@ -325,7 +325,7 @@ START_TEST(test_one_ray)
     uint32_t tile = w.h.face_element[5], group = w.h.elements[tile].parent;
     ck_assert(group > 0 && w.h.elements[group].vertices == 0);
     for (int grouped = 0; grouped < 2; grouped++) {
-        struct element r = w.h.elements[w.h.face_element[0]],
+        struct element r = *hierarchy_surface(&w.h, 0),
                        s = w.h.elements[grouped ? group : w.h.face_element[1]];
         double one = 0, four = 0;
         for (int i = 0; i < NAMES; i++) {

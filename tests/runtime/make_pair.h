@@ -18,8 +18,8 @@ struct two {
 /* The elements of the scene's first two faces; after a split they have moved. */
 static inline void two_find(struct two *t)
 {
-    t->a = &t->h.elements[t->h.face_element[0]];
-    t->b = &t->h.elements[t->h.face_element[1]];
+    t->a = hierarchy_surface(&t->h, 0);
+    t->b = hierarchy_surface(&t->h, 1);
 }
 
 static inline void two_open(struct two *t)

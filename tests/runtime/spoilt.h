@@ -71,7 +71,7 @@ static inline void spoil(const struct solve *s, const double *truth, double *sol
                               : third;
         for (uint32_t k = 0; k < bands; k++) {
             double reflected = s->problem.reflectance[f * bands + k] * truth[f * bands + k]
-                               * s->hierarchy.elements[s->hierarchy.face_element[f]].area;
+                               * hierarchy_surface(&s->hierarchy, f)->area;
             all += reflected;
             l1 += reflected * fabs(d[f]);
         }

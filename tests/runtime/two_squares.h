@@ -26,7 +26,7 @@ static inline void open_tree(struct exchange_tree *t, const struct scene *s)
 /* The face that was made at a place. */
 static inline const struct element *face_of(const struct exchange_tree *t, uint32_t face)
 {
-    return &t->h.elements[t->h.face_element[face]];
+    return hierarchy_surface(&t->h, face);
 }
 
 #endif
