@@ -21,8 +21,8 @@ oracle meet {
 }
 END
 cat >host.c <<'END'
-#include <stdio.h>
 #include "meet.h"
+#include "random_script.h"
 
 int main(int argc, char **argv)
 {
@@ -35,14 +35,7 @@ int main(int argc, char **argv)
         static struct record record;
         struct discussion d, c;
         unsigned char script[64];
-        for (int i = 0; i < 64; i++) {
-            random = random * 1664525u + 1013904223u;
-            script[i] = (unsigned char)(random >> 24);
-        }
-        memset(&d, 0, sizeof d);
-        memset(&record, 0, sizeof record);
-        d.record = &record;
-        record.script = script;
+        random_script(&d, &record, script, &random);
         int start = run % 4; /* nothing known; some; all */
         d.terms.size = start > 0 ? 7 : 0;
         d.terms.size_level = (unsigned char)(start > 2 ? SIZE_FINE : start);
@@ -55,9 +48,7 @@ int main(int argc, char **argv)
             start == 0 ? meet_refine_first(&p, &d) :
 #endif
             meet_refine(&p, &d);
-        printf("%d %d %d", run, (int)decision, record.calls);
-        for (int i = 0; i < record.calls; i++)
-            printf(" %d:%g:%g", record.tools[i], record.arguments[i][0], record.arguments[i][1]);
+        print_calls(run, (int)decision, &record);
         if (decision == DECISION_KEEP)
             printf(" %g %d %g %d %d %d", d.terms.size, d.terms.size_level, d.terms.where[0],
                    d.terms.where_level, d.terms.times, d.terms.times_level);
@@ -105,8 +96,7 @@ check "nothing is kept: one entry's copies serve both" sh -c "'$dagc' -Wno-all -
 check "without the option the text has no second entry" sh -c '! grep -q refine_first one/meet.c'
 check "all are proved" sh -c "'$dagc' -Wno-all --catalog '$catalog' --prove --copies=8 --instrument meet.dag | grep -q 'proved on'"
 for change in 's/goto copy2_d;/goto copy2_e;/' 's/goto node_a;/goto node_e;/'; do
-    printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" "$f";; esac; done\nexec cc "$@" -O0\n' "$change" >broken
-    chmod +x broken
+    break_c "$change"
     check "a fault: $change" sh -c "CC='$tmp/broken' '$dagc' -Wno-all --catalog '$catalog' --prove --copies=8 meet.dag | grep -q 'differs in'"
 done
 for wrong in 0 65 x ""; do

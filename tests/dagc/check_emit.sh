@@ -59,11 +59,10 @@ oracle small {
   node c = measure() { done -> keep; }
 }
 END
-# A C compiler that breaks what it is given: the proof must notice.
+# The proof must notice.
 for change in 's/return DECISION_DROP/return DECISION_SPLIT/' 's/parameters->most, 0.5/1.5, 0.5/' 's/goto node_b/goto node_c/' \
               's/discussion->terms.size = d.terms.size/(void)d.terms.size/'; do
-    printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" "$f";; esac; done\nexec cc "$@"\n' "$change" >broken
-    chmod +x broken
+    break_c "$change"
     check "a fault: $change" says 'small: small_refine differs in' status 1 env CC="$tmp/broken" "$dagc" -Wno-all --catalog "$catalog" --prove small.dag
     check "its status: $change" sh -c '! grep -q "^exit " said'
 done

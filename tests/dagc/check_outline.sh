@@ -33,8 +33,8 @@ oracle often {
 END
 sed -i 's/left.area \/ right.area/min(1, left.area \/ right.area)/; s/most \* 2/min(1, most * 2)/' often.dag
 cat >host.c <<'END'
-#include <stdio.h>
 #include "often.h"
+#include "random_script.h"
 
 int main(void)
 {
@@ -45,14 +45,7 @@ int main(void)
         static struct record record;
         struct discussion d;
         unsigned char script[64];
-        for (int i = 0; i < 64; i++) {
-            random = random * 1664525u + 1013904223u;
-            script[i] = (unsigned char)(random >> 24);
-        }
-        memset(&d, 0, sizeof d);
-        memset(&record, 0, sizeof record);
-        d.record = &record;
-        record.script = script;
+        random_script(&d, &record, script, &random);
         record.facts[0] = run % 5;
         record.facts[1] = 2;
         d.terms.size_level = (unsigned char)(run % 3);
@@ -60,9 +53,7 @@ int main(void)
         d.terms.times = d.terms.times_level;
         p.times = 1 + run % 9;
         enum decision decision = often_refine(&p, &d);
-        printf("%d %d %d", run, (int)decision, record.calls);
-        for (int i = 0; i < record.calls; i++)
-            printf(" %d:%g:%g", record.tools[i], record.arguments[i][0], record.arguments[i][1]);
+        print_calls(run, (int)decision, &record);
         if (decision == DECISION_KEEP)
             printf(" %g %d %d %d", d.terms.size, d.terms.size_level, d.terms.times, d.terms.times_level);
         printf("\n");
@@ -90,10 +81,9 @@ check "many ways through it" sh -c '[ "$(cut -d" " -f2- whole.txt | sort -u | wc
 check "shorter" [ "$(size outlined/often.c)" -lt $(($(size whole/often.c) * 3 / 4)) ]
 check "one function, four calls" sh -c '[ "$(grep -c often_branch_whole outlined/often.c)" = 5 ]'
 check "proved" sh -c "'$dagc' -Wno-all --catalog '$catalog' --prove --outline --instrument --trace often.dag | grep -q 'often: proved on'"
-# A C compiler that breaks what it is given: the proof must notice.
+# The proof must notice.
 for change in 's/return 1;/return 0;/' 's/(discussion, argument_1,/(discussion, 0.5,/' 's/is no number/is none/' 's/(parameters, &d, 0.125/(parameters, \&d, 0.25/'; do
-    printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" "$f";; esac; done\nexec cc "$@" -O0\n' "$change" >broken
-    chmod +x broken
+    break_c "$change"
     check "a fault: $change" sh -c "CC='$tmp/broken' '$dagc' -Wno-all --catalog '$catalog' --prove --outline often.dag | grep -q 'differs in'"
 done
 

@@ -27,6 +27,10 @@ says() { # TEXT COMMAND...
     shift
     "$@" 2>&1 | tee said | grep -q -- "$text" || { cat said; return 1; }
 }
+break_c() { # CHANGE: makes `broken`, a C compiler that changes so by sed what dagc --prove has it compile
+    printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" "$f";; esac; done\nexec cc "$@" -O0\n' "$1" >broken
+    chmod +x broken
+}
 have() { # PROGRAM
     command -v "$1" >/dev/null && return
     echo "skipped: $1 is not installed"
