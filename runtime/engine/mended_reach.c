@@ -26,16 +26,18 @@ int mended_reach_find(const struct solve *s, const struct tally *tally, struct m
 {
     struct face_noise noise;
     double left;
-    *reach = (struct mended_reach){0, 0, 0};
+    *reach = (struct mended_reach){0, 0, 0, 0};
     if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0
         || mended_error_find(s, tally, &noise, &left) < 0)
         return -1;
     reach->light = reflected_light(&s->problem, tally, &reach->variance);
-    if (reach->light > 0 && left > 0)
-        reach->l1 = left
-                    + REPLICATES_T
-                          * sqrt(left * left / (2 * (REPLICATES - 1)) + noise.spread * noise.spread
-                                 + reach->variance / (reach->light * reach->light));
+    if (!(reach->light > 0 && left > 0))
+        return 0;
+    reach->left = left;
+    reach->l1 = left
+                + REPLICATES_T
+                      * sqrt(left * left / (2 * (REPLICATES - 1)) + noise.spread * noise.spread
+                             + reach->variance / (reach->light * reach->light));
     return 0;
 }
 
@@ -61,7 +63,8 @@ void mended_reach_narrow(const struct mended_reach *reach, struct face_error *f)
         return;
     if (reach->l1 > f->l1.low) {
         f->l1.high = fmin(f->l1.high, reach->l1);
-        f->l1.value = fmin(f->l1.value, f->l1.high);
+        if (f->l1.value > f->l1.high)
+            f->l1.value = fmin(fmax(reach->left, f->l1.low), f->l1.high);
     }
     f->power = narrow_power(reach, f);
 }

@@ -8,7 +8,9 @@
 struct solve;
 
 struct mended_reach {
-    double l1; /* no more of the reflected light, in 97 of 100 cases; 0: nothing is known */
+    /* L1 error of polygons, shares of the reflected light: what mending leaves by its own estimate,
+     * and what is above the truth in 97 of 100 cases; 0: nothing is known */
+    double left, l1;
     double light, variance; /* all reflected light (W) and the variance of that (W2) */
 };
 

@@ -146,7 +146,7 @@ void solve_forget_mended(struct solve *s)
     free(s->mended_gradient);
     s->mended_gradient = NULL;
     s->mended = (struct state){0};
-    s->reach = (struct mended_reach){0, 0, 0};
+    s->reach = (struct mended_reach){0, 0, 0, 0};
 }
 
 void solve_close(struct solve *s)

@@ -138,16 +138,17 @@ static struct face_error measured(double light, double deviation, double low, do
         .reflected = light, .power = {0, -half, half}, .l1 = {(low + high) / 2, low, high}};
 }
 
-/* Of faces the upper end comes down to what mending leaves, but not where it is surely above; */
+/* Of faces the upper end comes down to what mending may leave, and what is above that becomes what
+ * mending leaves; but not where it is surely above; */
 START_TEST(test_faces)
 {
-    const struct mended_reach reach = {.l1 = 0.01}, nothing = {0, 0, 0};
+    const struct mended_reach reach = {.left = 0.006, .l1 = 0.01}, nothing = {0, 0, 0, 0};
     struct face_error m = measured(1, 0.1, 0.004, 0.03);
     mended_reach_narrow(&nothing, &m);
     ck_assert_double_eq(m.l1.high, 0.03);
     mended_reach_narrow(&reach, &m);
     ck_assert_double_eq(m.l1.low, 0.004);
-    ck_assert_double_eq(m.l1.value, 0.01);
+    ck_assert_double_eq(m.l1.value, 0.006);
     ck_assert_double_eq(m.l1.high, 0.01);
     m = measured(1, 0.1, 0.001, 0.009);
     mended_reach_narrow(&reach, &m);
@@ -166,7 +167,7 @@ START_TEST(test_power)
 {
     const double small = 1e-3; /* of all light: widths are linear in it */
     for (double apart = 0; apart < 5; apart += 4) {
-        const struct mended_reach reach = {0.01, 1 + apart * 2 * small, small * small};
+        const struct mended_reach reach = {0.006, 0.01, 1 + apart * 2 * small, small * small};
         struct face_error m = measured(1, sqrt(3) * small, 0, 0.03);
         mended_reach_narrow(&reach, &m);
         const double light = (1 + 3 * reach.light) / 4,
