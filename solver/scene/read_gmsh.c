@@ -1,7 +1,5 @@
 /* read_gmsh.c - see read_meshes.h: Gmsh's meshes, versions 2 to 2.2 and 4.1, as text or binary.
  *
- * One reader has both: what is a line and what a word in a text is nothing and a number of known
- * size in a binary section. There lines only count up to the section, which messages name.
  * Sections that are not needed are passed over up to their $End. In version 2 an element carries
  * its physical group, in 4.1 the surface that it is on does. An element that two groups have comes
  * twice in a row in version 2, and once in 4.1; it is in the first one. A mesh that is partitioned
@@ -11,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/gmsh_numbers.h"
 #include "scene/gmsh_types.h"
 #include "scene/mesh_parts.h"
 #include "scene/read_meshes.h"
@@ -23,10 +22,7 @@ enum { SURFACE = 2 };
 
 struct gmsh {
     struct mesh mesh;
-    struct text_lines lines;
-    int version; /* 2 or 4 */
-    int binary, big_endian;
-    int bytes;                /* 1: what comes now is no text */
+    struct gmsh_numbers in;
     struct numbered names;    /* of physical surfaces, to materials */
     struct numbered surfaces; /* to their physical groups, as indices of `groups` */
     int64_t *groups;
@@ -39,140 +35,38 @@ struct gmsh {
     } last; /* of the last face, in version 2 */
 };
 
-/* The next line with words. Returns 0, or -1 after a message at the end. */
-static int need_line(struct gmsh *g, const char *what)
-{
-    if (g->bytes)
-        return 0;
-    while (next_line(&g->lines))
-        if (next_word(&g->lines)) {
-            g->lines.word_end = g->lines.word;
-            return 0;
-        }
-    return report_error(g->mesh.path, g->lines.number,
-                        "ends before %s; the file is cut, export it again", what);
-}
-
-/* The next number of a binary section, of 4 or 8 bytes. */
-static int take_bytes(struct gmsh *g, const char *what, unsigned size, uint64_t *bits)
-{
-    struct text_lines *t = &g->lines;
-    if ((size_t)(t->end - t->next) < size)
-        return report_error(g->mesh.path, t->number,
-                            "ends before %s; the file is cut, export it again", what);
-    *bits = bytes_number(t->next, size, g->big_endian);
-    t->next += size;
-    return 0;
-}
-
-static int take_number(struct gmsh *g, const char *what, double *x)
-{
-    struct text_lines *t = &g->lines;
-    uint64_t bits;
-    if (!g->bytes) {
-        if (!next_word(t))
-            return report_error(g->mesh.path, t->number,
-                                "the line ends before %s; the file is damaged, export it again",
-                                what);
-        return mesh_number(&g->mesh, t, what, x);
-    }
-    if (take_bytes(g, what, 8, &bits))
-        return -1;
-    memcpy(x, &bits, sizeof *x);
-    return fabs(*x) <= (double)FLT_MAX
-               ? 0
-               : report_error(g->mesh.path, t->number, "%s is not finite; write finite numbers",
-                              what);
-}
-
-static int take_whole_of(struct gmsh *g, const char *what, unsigned size, int64_t *i)
-{
-    double x;
-    uint64_t bits;
-    if (g->bytes) {
-        if (take_bytes(g, what, size, &bits))
-            return -1;
-        *i = size == 4 ? (int32_t)(uint32_t)bits : (int64_t)bits;
-        return 0;
-    }
-    if (take_number(g, what, &x))
-        return -1;
-    if (!is_whole(fabs(x), 0x1p53))
-        return report_error(g->mesh.path, g->lines.number,
-                            "%g where %s belongs; the file is damaged, export it again", x, what);
-    *i = (int64_t)x;
-    return 0;
-}
-
-/* Numbers of entities, types and groups take 4 bytes; in 4.1 counts and numbers of nodes and
- * elements take 8. */
-static int take_whole(struct gmsh *g, const char *what, int64_t *i)
-{
-    return take_whole_of(g, what, 4, i);
-}
-
-static int take_long(struct gmsh *g, const char *what, int64_t *i)
-{
-    return take_whole_of(g, what, g->version == 4 ? 8 : 4, i);
-}
-
-static int take_count(struct gmsh *g, const char *what, int64_t *i)
-{
-    if (take_long(g, what, i))
-        return -1;
-    return *i < 0
-               ? report_error(g->mesh.path, g->lines.number,
-                              "%lld %s; the file is damaged, export it again", (long long)*i, what)
-               : 0;
-}
-
-/* The line must be $End and the section's name. */
-static int need_end(struct gmsh *g, const char *end)
-{
-    g->bytes = 0;
-    if (need_line(g, end))
-        return -1;
-    next_word(&g->lines);
-    return word_is(&g->lines, end)
-               ? 0
-               : report_error(g->mesh.path, g->lines.number,
-                              "'%.*s' where %s belongs: the counts do not fit what is there; the "
-                              "file is damaged, export it again",
-                              quoted_length(g->lines.word, g->lines.word_end), g->lines.word, end);
-}
-
 /* ---- sections */
 
 static int read_format(struct gmsh *g)
 {
     double version, binary, size;
     uint64_t one;
-    if (need_line(g, "the version") || take_number(g, "the version", &version)
-        || take_number(g, "0 for a text", &binary) || take_number(g, "8 bytes", &size))
+    if (gmsh_need_line(&g->in, "the version") || gmsh_number(&g->in, "the version", &version)
+        || gmsh_number(&g->in, "0 for a text", &binary) || gmsh_number(&g->in, "8 bytes", &size))
         return -1;
-    g->version = version >= 2 && version < 3 ? 2 : version >= 4.1 && version < 5 ? 4 : 0;
-    if (!g->version)
-        return report_error(g->mesh.path, g->lines.number,
+    g->in.version = version >= 2 && version < 3 ? 2 : version >= 4.1 && version < 5 ? 4 : 0;
+    if (!g->in.version)
+        return report_error(g->mesh.path, g->in.lines.number,
                             "version %g is not read; convert it: gmsh -0 -format msh22 -o NEW.msh "
                             "OLD.msh",
                             version);
-    g->binary = binary > 0;
-    if (!g->binary)
-        return need_end(g, "$EndMeshFormat");
+    g->in.binary = binary > 0;
+    if (!g->in.binary)
+        return gmsh_need_end(&g->in, "$EndMeshFormat");
     if (size < 8 || size > 8)
-        return report_error(g->mesh.path, g->lines.number,
+        return report_error(g->mesh.path, g->in.lines.number,
                             "a binary mesh with numbers of %g bytes, not 8; convert it: gmsh -0 "
                             "-format msh22 -o NEW.msh OLD.msh",
                             size);
-    if (take_bytes(g, "the number 1", 4, &one)) /* by which the order of bytes is told */
+    if (gmsh_bits(&g->in, "the number 1", 4, &one)) /* by which the order of bytes is told */
         return -1;
-    g->big_endian = one != 1;
+    g->in.big_endian = one != 1;
     if (one != 1 && one != 0x1000000)
         return report_error(
-            g->mesh.path, g->lines.number,
+            g->mesh.path, g->in.lines.number,
             "no 1 behind this line of a binary mesh; the file is damaged, export it "
             "again");
-    return need_end(g, "$EndMeshFormat");
+    return gmsh_need_end(&g->in, "$EndMeshFormat");
 }
 
 /* The material of a physical surface: its name, or its number. */
@@ -192,13 +86,14 @@ static int group_material(struct gmsh *g, int64_t group, uint32_t *material)
 static int read_names(struct gmsh *g)
 {
     int64_t count, dimension, number;
-    if (need_line(g, "physical names") || take_count(g, "physical names", &count))
+    if (gmsh_need_line(&g->in, "physical names") || gmsh_count(&g->in, "physical names", &count))
         return -1;
     for (int64_t i = 0; i < count; i++) {
-        if (need_line(g, "a physical name") || take_whole(g, "a dimension", &dimension)
-            || take_whole(g, "a group's number", &number))
+        if (gmsh_need_line(&g->in, "a physical name")
+            || gmsh_whole(&g->in, "a dimension", &dimension)
+            || gmsh_whole(&g->in, "a group's number", &number))
             return -1;
-        const struct text_lines *t = &g->lines;
+        const struct text_lines *t = &g->in.lines;
         const char *from = memchr(t->word_end, '"', (size_t)(t->line_end - t->word_end));
         const char *to = from ? memchr(from + 1, '"', (size_t)(t->line_end - from - 1)) : NULL;
         if (!to)
@@ -214,13 +109,13 @@ static int read_names(struct gmsh *g)
         if (numbered_add(&g->names, number, material))
             return scene_file_no_memory(g->mesh.path);
     }
-    return need_end(g, "$EndPhysicalNames");
+    return gmsh_need_end(&g->in, "$EndPhysicalNames");
 }
 
 static int add_surface(struct gmsh *g, int64_t tag, int64_t group)
 {
     if (numbered_find(&g->surfaces, tag) != UINT32_MAX)
-        return report_error(g->mesh.path, g->lines.number,
+        return report_error(g->mesh.path, g->in.lines.number,
                             "surface %lld is defined twice; the file is damaged, export it again",
                             (long long)tag);
     if (array_reserve(&g->groups, g->group_count + 1, &g->group_capacity, sizeof *g->groups)
@@ -241,11 +136,12 @@ static int64_t surface_group(const struct gmsh *g, int64_t dimension, int64_t ta
 static int read_parent(struct gmsh *g, int64_t *group)
 {
     int64_t dimension, tag, partitions, ignored;
-    if (take_whole(g, "a dimension", &dimension) || take_whole(g, "a parent's number", &tag)
-        || take_count(g, "partitions", &partitions))
+    if (gmsh_whole(&g->in, "a dimension", &dimension)
+        || gmsh_whole(&g->in, "a parent's number", &tag)
+        || gmsh_count(&g->in, "partitions", &partitions))
         return -1;
     for (int64_t i = 0; i < partitions; i++)
-        if (take_whole(g, "a partition", &ignored))
+        if (gmsh_whole(&g->in, "a partition", &ignored))
             return -1;
     *group = surface_group(g, dimension, tag);
     return 0;
@@ -256,25 +152,25 @@ static int read_entity(struct gmsh *g, int dimension, int pieces)
 {
     int64_t tag, groups, group, first = 0, bounds;
     double x;
-    if (!g->bytes && dimension != SURFACE)
+    if (!g->in.bytes && dimension != SURFACE)
         return 0;
-    if (take_whole(g, "an entity's number", &tag) || (pieces && read_parent(g, &first)))
+    if (gmsh_whole(&g->in, "an entity's number", &tag) || (pieces && read_parent(g, &first)))
         return -1;
     for (int k = 0; k < (dimension ? 6 : 3); k++)
-        if (take_number(g, "an entity's bounds", &x))
+        if (gmsh_number(&g->in, "an entity's bounds", &x))
             return -1;
-    if (take_count(g, "physical groups", &groups))
+    if (gmsh_count(&g->in, "physical groups", &groups))
         return -1;
     for (int64_t i = 0; i < groups; i++) {
-        if (take_whole(g, "a physical group", &group))
+        if (gmsh_whole(&g->in, "a physical group", &group))
             return -1;
         first = first ? first : group;
     }
-    if (g->bytes && dimension) {
-        if (take_count(g, "bounding entities", &bounds))
+    if (g->in.bytes && dimension) {
+        if (gmsh_count(&g->in, "bounding entities", &bounds))
             return -1;
         for (int64_t i = 0; i < bounds; i++)
-            if (take_whole(g, "a bounding entity", &group))
+            if (gmsh_whole(&g->in, "a bounding entity", &group))
                 return -1;
     }
     return dimension == SURFACE && first ? add_surface(g, tag, first) : 0;
@@ -284,12 +180,13 @@ static int read_entity(struct gmsh *g, int dimension, int pieces)
 static int read_partitions(struct gmsh *g)
 {
     int64_t count, ignored;
-    if (need_line(g, "partitions") || take_count(g, "partitions", &ignored)
-        || need_line(g, "ghost entities") || take_count(g, "ghost entities", &count))
+    if (gmsh_need_line(&g->in, "partitions") || gmsh_count(&g->in, "partitions", &ignored)
+        || gmsh_need_line(&g->in, "ghost entities") || gmsh_count(&g->in, "ghost entities", &count))
         return -1;
     for (int64_t i = 0; i < count; i++)
-        if (need_line(g, "a ghost entity") || take_whole(g, "a ghost entity", &ignored)
-            || take_whole(g, "a partition", &ignored))
+        if (gmsh_need_line(&g->in, "a ghost entity")
+            || gmsh_whole(&g->in, "a ghost entity", &ignored)
+            || gmsh_whole(&g->in, "a partition", &ignored))
             return -1;
     return 0;
 }
@@ -298,50 +195,50 @@ static int read_partitions(struct gmsh *g)
 static int read_entities(struct gmsh *g, int pieces)
 {
     int64_t count[4];
-    g->bytes = g->binary;
-    if ((pieces && read_partitions(g)) || need_line(g, "entities"))
+    g->in.bytes = g->in.binary;
+    if ((pieces && read_partitions(g)) || gmsh_need_line(&g->in, "entities"))
         return -1;
     for (int d = 0; d < 4; d++)
-        if (take_count(g, "entities", &count[d]))
+        if (gmsh_count(&g->in, "entities", &count[d]))
             return -1;
     for (int d = 0; d < 4; d++)
         for (int64_t i = 0; i < count[d]; i++)
-            if (need_line(g, "an entity") || read_entity(g, d, pieces))
+            if (gmsh_need_line(&g->in, "an entity") || read_entity(g, d, pieces))
                 return -1;
-    return need_end(g, pieces ? "$EndPartitionedEntities" : "$EndEntities");
+    return gmsh_need_end(&g->in, pieces ? "$EndPartitionedEntities" : "$EndEntities");
 }
 
 static int read_coordinates(struct gmsh *g, int64_t number)
 {
     double p[3];
     for (int k = 0; k < 3; k++)
-        if (take_number(g, "a coordinate", &p[k]))
+        if (gmsh_number(&g->in, "a coordinate", &p[k]))
             return -1;
-    return mesh_define_node(&g->mesh, number, p, g->lines.number);
+    return mesh_define_node(&g->mesh, number, p, g->in.lines.number);
 }
 
 static int read_nodes_2(struct gmsh *g)
 {
     int64_t count, number;
-    if (need_line(g, "nodes") || take_count(g, "nodes", &count))
+    if (gmsh_need_line(&g->in, "nodes") || gmsh_count(&g->in, "nodes", &count))
         return -1;
-    g->bytes = g->binary;
+    g->in.bytes = g->in.binary;
     for (int64_t i = 0; i < count; i++)
-        if (need_line(g, "a node") || take_whole(g, "a node's number", &number)
+        if (gmsh_need_line(&g->in, "a node") || gmsh_whole(&g->in, "a node's number", &number)
             || read_coordinates(g, number))
             return -1;
-    return need_end(g, "$EndNodes");
+    return gmsh_need_end(&g->in, "$EndNodes");
 }
 
 /* What 4.1 says of all blocks: their number; how many are in them; the least and largest number. */
 static int read_blocks(struct gmsh *g, const char *what, int64_t *blocks)
 {
     int64_t ignored;
-    g->bytes = g->binary;
-    if (need_line(g, what) || take_count(g, what, blocks))
+    g->in.bytes = g->in.binary;
+    if (gmsh_need_line(&g->in, what) || gmsh_count(&g->in, what, blocks))
         return -1;
-    for (int i = 0; i < 3 && g->bytes; i++)
-        if (take_long(g, what, &ignored))
+    for (int i = 0; i < 3 && g->in.bytes; i++)
+        if (gmsh_long(&g->in, what, &ignored))
             return -1;
     return 0;
 }
@@ -353,35 +250,36 @@ static int read_nodes_4(struct gmsh *g)
     if (read_blocks(g, "blocks of nodes", &blocks))
         return -1;
     for (int64_t b = 0; b < blocks; b++) {
-        if (need_line(g, "a block of nodes") || take_whole(g, "a dimension", &dimension)
-            || take_whole(g, "an entity", &ignored) || take_whole(g, "0 or 1", &parameters)
-            || take_count(g, "nodes", &count))
+        if (gmsh_need_line(&g->in, "a block of nodes")
+            || gmsh_whole(&g->in, "a dimension", &dimension)
+            || gmsh_whole(&g->in, "an entity", &ignored)
+            || gmsh_whole(&g->in, "0 or 1", &parameters) || gmsh_count(&g->in, "nodes", &count))
             return -1;
         for (int64_t i = 0; i < count; i++) {
-            if (need_line(g, "a node's number"))
+            if (gmsh_need_line(&g->in, "a node's number"))
                 return -1;
             if (array_reserve(&g->tags, (size_t)i + 1, &g->tag_capacity, sizeof *g->tags))
                 return scene_file_no_memory(g->mesh.path);
-            if (take_long(g, "a node's number", &g->tags[i]))
+            if (gmsh_long(&g->in, "a node's number", &g->tags[i]))
                 return -1;
         }
         for (int64_t i = 0; i < count; i++) {
-            if (need_line(g, "a node") || read_coordinates(g, g->tags[i]))
+            if (gmsh_need_line(&g->in, "a node") || read_coordinates(g, g->tags[i]))
                 return -1;
             /* places on the entity, where there are any */
-            for (int64_t k = 0; g->bytes && parameters && k < dimension && k < 3; k++)
-                if (take_number(g, "a parameter", &x))
+            for (int64_t k = 0; g->in.bytes && parameters && k < dimension && k < 3; k++)
+                if (gmsh_number(&g->in, "a parameter", &x))
                     return -1;
         }
     }
-    return need_end(g, "$EndNodes");
+    return gmsh_need_end(&g->in, "$EndNodes");
 }
 
 /* The corners of an element; in a text the rest of its line is passed over. */
 static int read_corners(struct gmsh *g, int64_t type, int64_t group)
 {
     const int corners = corners_of(type);
-    const uint32_t line = g->lines.number;
+    const uint32_t line = g->in.lines.number;
     int64_t node;
     uint32_t material;
     if (corners < 0)
@@ -394,7 +292,7 @@ static int read_corners(struct gmsh *g, int64_t type, int64_t group)
     if (group_material(g, group, &material))
         return -1;
     for (int i = 0; i < corners; i++)
-        if (take_long(g, "a node's number", &node) || mesh_corner(&g->mesh, node))
+        if (gmsh_long(&g->in, "a node's number", &node) || mesh_corner(&g->mesh, node))
             return -1;
     return mesh_polygon(&g->mesh, (uint32_t)corners, material, line);
 }
@@ -405,21 +303,21 @@ static int read_element(struct gmsh *g, int64_t type, int64_t group)
     const int all = nodes_of(type), corners = corners_of(type);
     int64_t ignored;
     if (type < 1 || type > GMSH_TYPES)
-        return report_error(g->mesh.path, g->lines.number,
+        return report_error(g->mesh.path, g->in.lines.number,
                             "an element of type %lld: types are 1 to %d", (long long)type,
                             GMSH_TYPES);
-    if (!g->bytes)
+    if (!g->in.bytes)
         return read_corners(g, type, group);
     if (!all)
         return report_error(
-            g->mesh.path, g->lines.number,
+            g->mesh.path, g->in.lines.number,
             "an element of type %lld, which is not known; convert the mesh: gmsh -0 "
             "-format msh22 -o NEW.msh OLD.msh",
             (long long)type);
     if (read_corners(g, type, group))
         return -1;
     for (int i = corners > 0 ? corners : 0; i < all; i++)
-        if (take_long(g, "a node's number", &ignored))
+        if (gmsh_long(&g->in, "a node's number", &ignored))
             return -1;
     return 0;
 }
@@ -430,7 +328,7 @@ static int read_tags(struct gmsh *g, int64_t tags, struct tags *to)
     int64_t tag;
     *to = (struct tags){0, 0};
     for (int64_t k = 0; k < tags; k++) {
-        if (take_whole(g, "a tag", &tag))
+        if (gmsh_whole(&g->in, "a tag", &tag))
             return -1;
         tag = tag < 0 ? -tag : tag; /* turned */
         to->group = k == 0 ? tag : to->group;
@@ -461,18 +359,20 @@ static int read_elements_2(struct gmsh *g)
 {
     int64_t count, type = 0, tags = 0, ignored, alike = 0;
     struct tags of;
-    if (need_line(g, "elements") || take_count(g, "elements", &count))
+    if (gmsh_need_line(&g->in, "elements") || gmsh_count(&g->in, "elements", &count))
         return -1;
-    g->bytes = g->binary;
+    g->in.bytes = g->in.binary;
     for (int64_t i = 0; i < count; i++, alike--) {
-        if (g->bytes && alike <= 0
-            && (take_whole(g, "an element's type", &type) || take_count(g, "elements", &alike)
-                || take_count(g, "tags", &tags)))
+        if (g->in.bytes && alike <= 0
+            && (gmsh_whole(&g->in, "an element's type", &type)
+                || gmsh_count(&g->in, "elements", &alike) || gmsh_count(&g->in, "tags", &tags)))
             return -1;
-        if (need_line(g, "an element") || take_whole(g, "an element's number", &ignored))
+        if (gmsh_need_line(&g->in, "an element")
+            || gmsh_whole(&g->in, "an element's number", &ignored))
             return -1;
-        if (!g->bytes
-            && (take_whole(g, "an element's type", &type) || take_count(g, "tags", &tags)))
+        if (!g->in.bytes
+            && (gmsh_whole(&g->in, "an element's type", &type)
+                || gmsh_count(&g->in, "tags", &tags)))
             return -1;
         const uint32_t faces = g->mesh.file->polygon_count;
         if (read_tags(g, tags, &of) || read_element(g, type, of.group))
@@ -480,7 +380,7 @@ static int read_elements_2(struct gmsh *g)
         if (g->mesh.file->polygon_count > faces)
             drop_repeated(g, type, &of);
     }
-    return need_end(g, "$EndElements");
+    return gmsh_need_end(&g->in, "$EndElements");
 }
 
 static int read_elements_4(struct gmsh *g)
@@ -489,34 +389,36 @@ static int read_elements_4(struct gmsh *g)
     if (read_blocks(g, "blocks of elements", &blocks))
         return -1;
     for (int64_t b = 0; b < blocks; b++) {
-        if (need_line(g, "a block of elements") || take_whole(g, "a dimension", &dimension)
-            || take_whole(g, "an entity", &entity) || take_whole(g, "a type", &type)
-            || take_count(g, "elements", &count))
+        if (gmsh_need_line(&g->in, "a block of elements")
+            || gmsh_whole(&g->in, "a dimension", &dimension)
+            || gmsh_whole(&g->in, "an entity", &entity) || gmsh_whole(&g->in, "a type", &type)
+            || gmsh_count(&g->in, "elements", &count))
             return -1;
         const int64_t group = surface_group(g, dimension, entity);
         for (int64_t i = 0; i < count; i++)
-            if (need_line(g, "an element") || take_long(g, "an element's number", &ignored)
+            if (gmsh_need_line(&g->in, "an element")
+                || gmsh_long(&g->in, "an element's number", &ignored)
                 || read_element(g, type, group))
                 return -1;
     }
-    return need_end(g, "$EndElements");
+    return gmsh_need_end(&g->in, "$EndElements");
 }
 
 /* ---- the file */
 
 static int pass_over(struct gmsh *g)
 {
-    while (next_line(&g->lines))
-        if (next_word(&g->lines) && g->lines.word_end - g->lines.word > 4
-            && memcmp(g->lines.word, "$End", 4) == 0)
+    while (next_line(&g->in.lines))
+        if (next_word(&g->in.lines) && g->in.lines.word_end - g->in.lines.word > 4
+            && memcmp(g->in.lines.word, "$End", 4) == 0)
             return 0;
-    return report_error(g->mesh.path, g->lines.number,
+    return report_error(g->mesh.path, g->in.lines.number,
                         "ends within a section; the file is cut, export it again");
 }
 
 static int read_section(struct gmsh *g)
 {
-    const struct text_lines *t = &g->lines;
+    const struct text_lines *t = &g->in.lines;
     if (*t->word != '$')
         return report_error(g->mesh.path, t->number,
                             "'%.*s' where a section begins with $; no Gmsh mesh, or a damaged one: "
@@ -526,23 +428,23 @@ static int read_section(struct gmsh *g)
         return read_format(g);
     if (word_is(t, "$Comments"))
         return pass_over(g);
-    if (!g->version)
+    if (!g->in.version)
         return report_error(g->mesh.path, t->number,
                             "no $MeshFormat before this section; the file is older than version 2 "
                             "or damaged: convert it with gmsh -0 -format msh22 -o NEW.msh OLD.msh");
     if (word_is(t, "$PhysicalNames"))
         return read_names(g);
-    if (word_is(t, "$Entities") && g->version == 4)
+    if (word_is(t, "$Entities") && g->in.version == 4)
         return read_entities(g, 0);
-    if (word_is(t, "$PartitionedEntities") && g->version == 4)
+    if (word_is(t, "$PartitionedEntities") && g->in.version == 4)
         return read_entities(g, 1);
     if (word_is(t, "$Nodes")) {
         g->nodes = 1;
-        return g->version == 4 ? read_nodes_4(g) : read_nodes_2(g);
+        return g->in.version == 4 ? read_nodes_4(g) : read_nodes_2(g);
     }
     if (word_is(t, "$Elements")) {
         g->elements = 1;
-        return g->version == 4 ? read_elements_4(g) : read_elements_2(g);
+        return g->in.version == 4 ? read_elements_4(g) : read_elements_2(g);
     }
     if (word_is(t, "$ParametricNodes"))
         return report_error(g->mesh.path, t->number,
@@ -553,13 +455,14 @@ static int read_section(struct gmsh *g)
 
 int read_gmsh(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
 {
-    struct gmsh g = {.mesh = {.file = f, .path = path}, .lines = text_lines(text, size)};
+    struct gmsh g = {.mesh = {.file = f, .path = path},
+                     .in = {.mesh = &g.mesh, .lines = text_lines(text, size)}};
     int result = 0;
-    while (!result && next_line(&g.lines))
-        if (next_word(&g.lines))
+    while (!result && next_line(&g.in.lines))
+        if (next_word(&g.in.lines))
             result = read_section(&g);
     if (!result && !(g.nodes && g.elements))
-        result = report_error(path, g.lines.number,
+        result = report_error(path, g.in.lines.number,
                               "no $Nodes or no $Elements; the file is cut, export it again");
     if (!result)
         result = mesh_finish(&g.mesh, quiet);
