@@ -36,6 +36,7 @@ struct nastran {
     struct nastran_systems systems;
     int depth; /* of the file under way: 0 the scene's own */
     int files;
+    uint32_t skins, first_skin; /* faces of cards that are not read, the line of the first */
     int quiet;
 };
 
@@ -259,6 +260,8 @@ static int finish_card(struct nastran *a)
                              *const by_points[] = {"CORD2R", "CORD2C", "CORD2S", NULL},
                              *const by_grids[] = {"CORD1R", "CORD1C", "CORD1S", NULL},
                              *const volumes[] = {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", NULL},
+                             *const skins[] = {"CHBDYE", "CHBDYG",  "CHBDYP", "CTRIAX",
+                                               "CQUADX", "CTRIAX6", NULL},
                              *const lines[] = {"CBAR",  "CBEAM",  "CROD",   "CONROD", "CTUBE",
                                                "CBUSH", "CELAS1", "CELAS2", "PLOTEL", NULL};
     const struct card *c = &a->card;
@@ -279,6 +282,8 @@ static int finish_card(struct nastran *a)
         result = read_shell(a, 4);
     else if (is_one_of(c->name, volumes))
         mesh_volume(&a->mesh, line_kept(a));
+    else if (is_one_of(c->name, skins))
+        a->first_skin = a->skins++ ? a->first_skin : line_kept(a);
     else
         a->mesh.file->other += (uint32_t)is_one_of(c->name, lines);
     a->card.line = 0;
@@ -404,8 +409,13 @@ static int read_text(struct nastran *a, const char *text, size_t size)
 int read_nastran(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
 {
     struct nastran a = {.mesh = {.file = f, .path = path}, .quiet = quiet};
-    const int failed = read_text(&a, text, size) < 0 || nastran_systems_place(&a.systems, &a.mesh)
-                       || mesh_finish(&a.mesh, quiet);
+    int failed = read_text(&a, text, size) < 0 || nastran_systems_place(&a.systems, &a.mesh);
+    if (!failed && a.skins && !quiet)
+        report_warning(path, a.first_skin,
+                       "%u surfaces of heat (CHBDYG and its like) or of revolution (CTRIAX) are "
+                       "passed over; those that are to be faces belong in CTRIA3 and CQUAD4",
+                       (unsigned)a.skins);
+    failed = failed || mesh_finish(&a.mesh, quiet);
     nastran_systems_free(&a.systems);
     mesh_free(&a.mesh);
     return failed ? -1 : 0;

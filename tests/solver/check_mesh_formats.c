@@ -953,6 +953,19 @@ START_TEST(test_curved)
 }
 END_TEST
 
+/* Surfaces of cards that are not read are counted, beside faces that are. */
+START_TEST(test_passed_over)
+{
+    static const struct scene_options told = {.quiet = 0};
+    text.size = 0;
+    put("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,1,1,1,2,3\n"
+        "CHBDYG,2,,AREA3,,,,,,+\n+,1,2,3\nCTRIAX6,3,1,1,2,3\n");
+    write_text("skins.bdf");
+    const char *said = said_of(in_folder("skins.bdf"), &told, 0);
+    ck_assert_msg(strstr(said, ":5: warning: 2 surfaces of heat") != NULL, "%s", said);
+}
+END_TEST
+
 /* A hexagon and an L are one polygon each; each triangle of a strip is one, with one front. */
 START_TEST(test_polygons_of_vtk)
 {
@@ -987,6 +1000,7 @@ int main(void)
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_polygons, 0, FORMATS);
     tcase_add_test(t, test_factors);
+    tcase_add_test(t, test_passed_over);
     tcase_add_test(t, test_systems_of_nastran);
     tcase_add_loop_test(t, test_short_lines_of_nastran, 0, 6);
     tcase_add_loop_test(t, test_defaults_of_nastran, 0, 4);
