@@ -643,11 +643,12 @@
 #define OUTPUT_RISE 3
 /* rays. A sample of a pixel gathers by one of each kind at the least */
 #define GATHERING_LEAST 2
-/* rays of all corners per pixel: a pixel gathers by as many at the least, were it asked to. Chosen
- */
+/* rays of all corners' first sets per pixel: a pixel gathers by as many at the least, were it asked
+ * to. Chosen */
 #define GATHERING_SHARE 8
-/* rays by which one corner gathers, half of them towards what is bright, at the most and at the
- * least. Chosen; make picture-table tells what comes of it */
+/* rays by which one corner gathers in its first set, half of them towards what is bright, at the
+ * most and at the least; the second has half as many. Chosen; make picture-table tells what comes
+ * of it */
 #define GATHERING_MOST 256
 #define GATHERING_FEWEST 64
 /* corners. So many of a face say what gathering is worth on it: known to a

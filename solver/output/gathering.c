@@ -186,7 +186,6 @@ static void note_corners(struct corner *corners, const struct vertex_values *v,
 static struct RadGatherPoint corner_point(const struct element *e, uint32_t j,
                                           const struct corner *c, uint32_t rays)
 {
-
     uint32_t first = rays * c->next / c->leaves, end = rays * (c->next + 1) / c->leaves;
     struct RadGatherPoint point = {.face = e->face, .first = first, .rays = end - first};
     for (int k = 0; k < 3; k++)
