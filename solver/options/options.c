@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "options/option_table.h"
 #include "output/export.h"
@@ -18,6 +17,7 @@
 #include "util/array.h"
 #include "util/machines.h"
 #include "util/report.h"
+#include "util/same_file.h"
 #include "util/thread_pool.h"
 
 /* what getopt_long returns: a letter, or one of these */
@@ -283,14 +283,6 @@ static int add_scene(struct options *o, const char *path)
     return -1;
 }
 
-static int are_one_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    return strcmp(a, b) == 0
-           || (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev
-               && x.st_ino == y.st_ino);
-}
-
 /* The arguments of tune: an oracle, then scenes. Returns -1 to go on, or the exit status. */
 static int add_oracle_or_scene(struct options *o, const char *path)
 {
@@ -301,7 +293,7 @@ static int add_oracle_or_scene(struct options *o, const char *path)
         return -1;
     }
     for (int i = 0; i < o->scene_count; i++)
-        if (are_one_file(o->scenes[i], path))
+        if (same_file(o->scenes[i], path))
             return wrong("tune", "%s is named twice; left out, it would not be unknown", path);
     return add_scene(o, path);
 }

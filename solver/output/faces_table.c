@@ -107,9 +107,7 @@ static int read_bands(const struct faces_table *t, double *values, const struct 
 
 static int parse(struct faces_table *t, const char *path, size_t rows, uint32_t faces)
 {
-    /* some programs begin a table with a byte order mark */
-    char *text = t->text + (strncmp(t->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0), *field[COLUMNS],
-         *line = next_line(&text);
+    char *text = t->text + text_mark(t->text), *field[COLUMNS], *line = next_line(&text);
     int columns = line ? split(line, field) : 0, face = find(field, columns, "face"),
         area = find(field, columns, "area"), material = find(field, columns, "material"),
         side = find(field, columns, "sides");

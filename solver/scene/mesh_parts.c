@@ -151,16 +151,10 @@ int mesh_material(struct mesh *m, const char *name, size_t length, double reflec
 
 /* ---- the end */
 
-void mesh_volume(struct mesh *m, uint32_t line)
+void mesh_note(struct mesh_note *n, uint32_t line)
 {
-    if (!m->volumes++)
-        m->first_volume = line;
-}
-
-void mesh_curved(struct mesh *m, uint32_t line)
-{
-    if (!m->curved++)
-        m->first_curved = line;
+    if (!n->count++)
+        n->first = line;
 }
 
 static int report_missing(const struct mesh *m, uint32_t position, uint32_t line)
@@ -183,21 +177,21 @@ int mesh_finish(struct mesh *m, int quiet)
             if (isnan(f->positions[3 * (size_t)f->indices[at]]))
                 return report_missing(m, f->indices[at], f->lines[i]);
     if (!f->polygon_count)
-        return report_error(m->path, m->first_volume,
-                            m->volumes
+        return report_error(m->path, m->volumes.first,
+                            m->volumes.count
                                 ? "there are volumes in it and no face; export its surface, as "
                                   "triangles or quads"
                                 : "there is no face in it; a scene needs one triangle or quad at "
                                   "least");
-    if (m->volumes && !quiet)
-        report_warning(m->path, m->first_volume,
+    if (m->volumes.count && !quiet)
+        report_warning(m->path, m->volumes.first,
                        "%lu elements that fill space are passed over; faces alone are read",
-                       (unsigned long)m->volumes);
-    if (m->curved && !quiet)
-        report_warning(m->path, m->first_curved,
+                       (unsigned long)m->volumes.count);
+    if (m->curved.count && !quiet)
+        report_warning(m->path, m->curved.first,
                        "nodes beside the corners of faces are not read (%lu such faces): faces "
                        "are flat between corners; where they should bend, export smaller ones",
-                       (unsigned long)m->curved);
+                       (unsigned long)m->curved.count);
     return 0;
 }
 

@@ -26,13 +26,18 @@ int numbered_add(struct numbered *n, int64_t number, uint32_t value);
 
 static const double MESH_GREY = .5;
 
+/* How many there are of what is passed over, and the line of the first. */
+struct mesh_note {
+    uint32_t count, first;
+};
+
 struct mesh {
     struct scene_file *file;
     const char *path;
-    struct numbered nodes;          /* to positions, NaN while a node is used and not defined */
-    struct numbered materials;      /* hashes of names and reflectances to materials */
-    uint32_t volumes, first_volume; /* elements that fill space, the line of the first */
-    uint32_t curved, first_curved;  /* faces with nodes beside their corners, likewise */
+    struct numbered nodes;     /* to positions, NaN while a node is used and not defined */
+    struct numbered materials; /* hashes of names and reflectances to materials */
+    struct mesh_note volumes;  /* elements that fill space */
+    struct mesh_note curved;   /* faces with nodes beside their corners */
 };
 
 /* All return 0, or -1 after a message with the line. */
@@ -43,8 +48,7 @@ int mesh_polygon(struct mesh *m, uint32_t size, uint32_t material, uint32_t line
 /* The material of this name and reflectance, made when there is none. */
 int mesh_material(struct mesh *m, const char *name, size_t length, double reflectance,
                   uint32_t *material);
-void mesh_volume(struct mesh *m, uint32_t line);
-void mesh_curved(struct mesh *m, uint32_t line);
+void mesh_note(struct mesh_note *n, uint32_t line);
 /* The word at hand, which must be a finite number: `what` belongs there. */
 int mesh_number(const struct mesh *m, const struct text_lines *t, const char *what, double *x);
 /* Says that the word at hand is none of what belongs there; -1. */

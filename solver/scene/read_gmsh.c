@@ -283,12 +283,12 @@ static int read_corners(struct gmsh *g, int64_t type, int64_t group)
     int64_t node;
     uint32_t material;
     if (corners < 0)
-        mesh_volume(&g->mesh, line);
+        mesh_note(&g->mesh.volumes, line);
     g->mesh.file->other += corners == 0;
     if (corners <= 0)
         return 0;
     if (nodes_of(type) != corners)
-        mesh_curved(&g->mesh, line);
+        mesh_note(&g->mesh.curved, line);
     if (group_material(g, group, &material))
         return -1;
     for (int i = 0; i < corners; i++)
@@ -346,7 +346,7 @@ static void drop_repeated(struct gmsh *g, int64_t type, const struct tags *tags)
     if (n > 1 && f->sizes[n - 2] == size && tags->surface == g->last.surface
         && tags->group != g->last.group
         && memcmp(corners - size, corners, size * sizeof *corners) == 0) {
-        g->mesh.curved -= nodes_of(type) != corners_of(type);
+        g->mesh.curved.count -= nodes_of(type) != corners_of(type);
         f->polygon_count--;
         f->index_count -= size;
     } else {

@@ -19,6 +19,7 @@
 #include "scene/read_numbers.h"
 #include "scene/text_lines.h"
 #include "util/report.h"
+#include "util/text_file.h"
 
 enum { LINE_FIELDS = 8, STAR_FIELDS = 4, FIELDS = 2 * LINE_FIELDS, WIDEST = 32 };
 enum { DEPTH = 16, FILES = 1000 }; /* that include each other, and in all; chosen */
@@ -36,7 +37,7 @@ struct nastran {
     struct nastran_systems systems;
     int depth; /* of the file under way: 0 the scene's own */
     int files;
-    uint32_t skins, first_skin; /* faces of cards that are not read, the line of the first */
+    struct mesh_note skins; /* faces of cards that are not read */
     int quiet;
 };
 
@@ -242,7 +243,7 @@ static int read_shell(struct nastran *a, uint32_t corners)
         return -1;
     if (a->card.fields > 2 + (int)corners && *a->card.field[2 + corners]
         && is_one_of(a->card.name, curved))
-        mesh_curved(&a->mesh, line_kept(a));
+        mesh_note(&a->mesh.curved, line_kept(a));
     for (uint32_t i = 0; i < corners; i++) {
         if (field_number(a, 2 + (int)i, "a corner", &given)
             || field_whole(a, 2 + (int)i, "a corner", &number) || mesh_corner(&a->mesh, number))
@@ -281,9 +282,9 @@ static int finish_card(struct nastran *a)
     else if (is_one_of(c->name, quads))
         result = read_shell(a, 4);
     else if (is_one_of(c->name, volumes))
-        mesh_volume(&a->mesh, line_kept(a));
+        mesh_note(&a->mesh.volumes, line_kept(a));
     else if (is_one_of(c->name, skins))
-        a->first_skin = a->skins++ ? a->first_skin : line_kept(a);
+        mesh_note(&a->skins, line_kept(a));
     else
         a->mesh.file->other += (uint32_t)is_one_of(c->name, lines);
     a->card.line = 0;
@@ -381,7 +382,7 @@ static int read_text(struct nastran *a, const char *text, size_t size)
     if (memchr(text, 0, size))
         return report_error(a->mesh.path, 0,
                             "not a text; export it as Nastran bulk data (not OP2)");
-    line += size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* a mark of UTF-8 */
+    line += text_mark(text);
     const size_t begins = bulk_begins(text, size);
     line = begins ? text + begins : line;
     for (const char *c = text; c < line; c++)
@@ -410,11 +411,11 @@ int read_nastran(struct scene_file *f, const char *path, char *text, size_t size
 {
     struct nastran a = {.mesh = {.file = f, .path = path}, .quiet = quiet};
     int failed = read_text(&a, text, size) < 0 || nastran_systems_place(&a.systems, &a.mesh);
-    if (!failed && a.skins && !quiet)
-        report_warning(path, a.first_skin,
+    if (!failed && a.skins.count && !quiet)
+        report_warning(path, a.skins.first,
                        "%u surfaces of heat (CHBDYG and its like) or of revolution (CTRIAX) are "
                        "passed over; those that are to be faces belong in CTRIA3 and CQUAD4",
-                       (unsigned)a.skins);
+                       (unsigned)a.skins.count);
     failed = failed || mesh_finish(&a.mesh, quiet);
     nastran_systems_free(&a.systems);
     mesh_free(&a.mesh);

@@ -14,6 +14,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "util/text_file.h"
 
 struct text_lines {
     char *next, *end;       /* where the next line starts, where the text ends: at a 0 */
@@ -25,8 +26,7 @@ struct text_lines {
 
 static inline struct text_lines text_lines(char *text, size_t size)
 {
-    size_t mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
-    return (struct text_lines){.next = text + mark, .end = text + size, .after = 1};
+    return (struct text_lines){.next = text + text_mark(text), .end = text + size, .after = 1};
 }
 
 static inline int is_blank(char c)

@@ -73,7 +73,7 @@ int vtk_cell(struct mesh *m, struct vtk_points points, double type, const double
     const int corners = corners_of(type);
     const size_t count = corners == ANY ? size : (size_t)corners;
     if (corners == VOLUME)
-        mesh_volume(m, line);
+        mesh_note(&m->volumes, line);
     m->file->other += corners == NO_FACE;
     if (corners == VOLUME || corners == NO_FACE)
         return 0;
@@ -83,7 +83,7 @@ int vtk_cell(struct mesh *m, struct vtk_points points, double type, const double
                             "again",
                             type, size);
     if (corners != ANY && size > count)
-        mesh_curved(m, line);
+        mesh_note(&m->curved, line);
     if (is_whole(type, 256) && (int)type == VTK_STRIP)
         return add_strip(m, points, point, size, line);
     for (size_t i = 0; i < count; i++) {

@@ -154,9 +154,7 @@ int parameter_file_apply(const char *path, RadDevice device, RadOracle oracle, c
     int status = f.lines ? 0 : report_error(path, 0, "out of memory");
     if (status == 0 && strlen(text) != size)
         status = report_error(path, 0, "not a text: it has a byte 0");
-    /* some editors begin a text with a byte order mark */
-    char *first = text + (strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0);
-    for (char *at = first, *end = text + size; status == 0 && at < end;) {
+    for (char *at = text + text_mark(text), *end = text + size; status == 0 && at < end;) {
         char *next = at + strcspn(at, "\n");
         *next = 0;
         f.line++;
