@@ -151,6 +151,7 @@ few sweeps, and links are blamed | solver/util/solved.c | s/ \&\& !(r->solved.bo
 screens of one side | solver/output/faces_table.c | s/t->area.t->count. .= sides;/t->area[t->count] *= 0 * sides + 1;/ | solver/check_error
 unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work
 a proof's folder stays     | dagc/prove/compile.c | s/dag_tidy_push(&tidy);/(void)tidy;/ | dagc/check_signals
+a slow disk is a hang       | solver/scene/import_child.c | s/") D"/") Q"/ | solver/check_import_child
 imports are outputs        | solver/commands/check_outputs.c | s/return radListOracleFiles.*/return 0;/ | solver/check_options
 panel: texts are markup | solver/output/panel_page.c | s/strchr("<>&", \*at)/strchr("\&", *at)/ | solver/check_panel
 panel: wrong files taken | solver/panel/result.js | s/if (wrong.length) throw/if (false) throw/ | solver/check_panel

@@ -3,7 +3,7 @@
  * fork(2) without exec: the child runs one function and ends by _exit, so nothing of the parent is
  * flushed or closed twice, and threads that the parent may have by then are not waited for. The
  * parent reads with a look at the child's clock between two waits: a child that computes for ever
- * is ended by the kernel (RLIMIT_CPU), one that waits for ever by the parent.
+ * is ended by the kernel (RLIMIT_CPU), one that waits for ever, but for a disk, by the parent.
  * SPDX-License-Identifier: MIT */
 #include "scene/import_child.h"
 
@@ -192,6 +192,20 @@ static double spent(const struct child *c)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* Linux knows of whom a disk keeps waiting, which is no fault of the file however long it takes. */
+static int waits_for_disk(const struct child *c)
+{
+    char text[512];
+    snprintf(text, sizeof text, "/proc/%ld/stat", (long)c->process);
+    FILE *f = fopen(text, "r");
+    const char *const line = f ? fgets(text, sizeof text, f) : NULL, *const name_end =
+                                                                         line ? strrchr(line, ')')
+                                                                              : NULL;
+    if (f)
+        fclose(f);
+    return name_end && strncmp(name_end, ") D", 3) == 0;
+}
+
 /* Returns 0, or -1 when the child sends no more. */
 static int receive(struct child *c, void *to, size_t size)
 {
@@ -202,7 +216,7 @@ static int receive(struct child *c, void *to, size_t size)
         const int ready = poll(&wait, 1, step);
         if (ready == 0) {
             const double now = spent(c);
-            idle = now > last ? 0 : idle + 1e-3 * step;
+            idle = now > last || waits_for_disk(c) ? 0 : idle + 1e-3 * step;
             last = now;
             c->idle = idle >= IDLE;
             c->late = seconds() - c->begun > LATE * c->seconds;
