@@ -15,7 +15,7 @@
 # make heat     the graph of the default oracle with what it did in room.obj (needs Graphviz)
 # make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
-# make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
+# make tables   the tables of README.md and of the pages in examples anew (TABLES="NAME...": some)
 # make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds, viewfactors, waves: rows, charts and pages (STUDIES="NAME...": some)
 # make bench-threads  what two threads bring, and what they cost beside 8 busy loops
 # make bench-waves  what releases take of the same pairs, in blocks and one by one, over the bare Embree time of their rays

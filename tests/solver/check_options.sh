@@ -348,17 +348,20 @@ told() {
     done
 }
 api=runtime/radiosity.h constants=runtime/kernel/constants.h page=solver/man/radiosity.1
-told RAD_CORRECT_PLACES 0.065 $api "6.5 %, root mean square" README.md $page
-told RAD_CORRECT_NOISE 0.0065 $api ".65 % of the light per face" README.md
-told RAD_CORRECT_LEFT 0.008 $api "at most .8 %" README.md
-told RAD_CORRECT_POWER 0.0039 $api "at most .39 %" README.md
-told RAD_CORRECT_LEAST "(1u << 17)" $api "131,072" README.md
-told RAD_CORRECT_OF_ONE 6400u $api "6,400 for each face" README.md
-told RAD_MEASURE_SURFACES 250000u $api "250,000 at least" README.md
-told PATHS_CHEAPER 2.0 $constants "less than half of the rays" README.md $page $api
+error=examples/measured_error.md factors=examples/viewfactors.md
+told RAD_CORRECT_PLACES 0.065 $api "6.5 %, root mean square" $error $page
+told RAD_CORRECT_PLACES 0.065 $api "6.5 % on places of 1e-4" README.md
+told RAD_CORRECT_NOISE 0.0065 $api ".65 % of the light per face" $error
+told RAD_CORRECT_NOISE 0.0065 $api ".65 % of noise per face" README.md
+told RAD_CORRECT_LEFT 0.008 $api "at most .8 %" $error
+told RAD_CORRECT_POWER 0.0039 $api "at most .39 %" $error
+told RAD_CORRECT_LEAST "(1u << 17)" $api "131,072" $error
+told RAD_CORRECT_OF_ONE 6400u $api "6,400 for each face" $error README.md
+told RAD_MEASURE_SURFACES 250000u $api "250,000 at least" $error
+told PATHS_CHEAPER 2.0 $constants "less than half of the rays" $error $page $api
 told LIMIT_DEPTH 16 $constants "(16 splits" $api
-told SIGHT_FEW_POLYGONS 24 $constants "24 polygons" README.md $page $api
-told SIGHT_FLOOR_MANY 4.0 $constants "four over the root of the number of faces" README.md $page $api
+told SIGHT_FEW_POLYGONS 24 $constants "24 polygons" $factors $page $api
+told SIGHT_FLOOR_MANY 4.0 $constants "four over the root of the number of faces" $factors $page $api
 
 # ---- the picture of the error takes what that of the light takes, and both come from one run
 count=$((count + 1))

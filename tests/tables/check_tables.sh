@@ -7,13 +7,21 @@
 build=$(dirname "$(dirname "$radiosity")")
 quietly=into_files
 
-# ---- the three files and the generators beside this one
-for file in README.md examples/oracles/README.md examples/clustering.md; do
+# ---- the files and the generators beside this one
+for file in README.md examples/measured_error.md examples/viewfactors.md examples/oracles/README.md examples/clustering.md; do
     sed -n 's/^<!-- table \([a-z_]*\): begin.*/\1/p' "$top/$file"
 done | sort >marked
 find "$top/tests/tables" -name 'table_*.sh' | sed 's,.*/table_\(.*\)\.sh,\1,' | sort >made
 check "there are tables" sh -c '[ "$(wc -l <marked)" -gt 8 ]'
 check "each marker has a generator, and each generator one marker" diff marked made
+
+# ---- what a page links to is there
+(cd "$top" && find README.md ARCHITECTURE.md examples -name '*.md' | while read -r page; do
+    grep -o '](\([^)#]*\)' "$page" | sed 's/^](//; /^$/d; /^http/d' | while read -r to; do
+        [ -e "$(dirname "$page")/$to" ] || echo "$page: $to"
+    done
+done) >dangling
+check "links lead to files" sh -c '! grep . dangling'
 
 # ---- the machine, on files of its own
 mkdir makers

@@ -17,7 +17,7 @@ set -u
 here=$(cd "$(dirname "$0")" && pwd)
 export BUILD="${1:-build}"
 [ $# = 0 ] || shift
-files=${TABLE_FILES:-README.md examples/oracles/README.md examples/clustering.md} makers=${TABLE_MAKERS:-$here}
+files=${TABLE_FILES:-README.md examples/measured_error.md examples/viewfactors.md examples/oracles/README.md examples/clustering.md} makers=${TABLE_MAKERS:-$here}
 tmp=$(mktemp -d) || exit 2
 new=
 trap 'rm -rf "$tmp" "$new"' EXIT
