@@ -197,7 +197,7 @@ few particles seem normal | runtime/engine/face_error.c | s/count >= FACE_ERROR_
 a lone count is sure | runtime/engine/face_error.c | s/fmax(s, c->deviation\[i\]))/s)/ | runtime/check_measured_error
 sums of clusters as they come | runtime/engine/mend_clusters.c | s/^        settle_sum(m, irradiance);/        (void)settle_sum;/ | runtime/check_mended_error
 all light may be unsure | runtime/engine/mended_error.c | s/\*times = fmax(\*times, for_power);/(void)0;/ | runtime/check_mended_error
-a class that none has met is sure | runtime/engine/face_error.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error
+a class that none has met is sure | runtime/engine/polygon_counts.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error
 what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->error, element), 0)/fmax(truth_of(s, seen->error, element), 1)/ | solver/check_error_image
 clusters keep what they were | runtime/hierarchy/children_first.c | s/e = h->built; e-- > 0;/e = 0; e-- > 1;/ | runtime/check_measured_error runtime/check_transport
 halves are added | runtime/engine/face_error.c | s/x\[i + step\] = a - b/x[i + step] = a + b/ | runtime/check_measured_error

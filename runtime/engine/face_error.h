@@ -4,8 +4,7 @@
 #ifndef FACE_ERROR_H
 #define FACE_ERROR_H
 
-#include "engine/problem.h"
-#include "particles/particles.h"
+#include "engine/polygon_counts.h"
 #include "radiosity.h"
 
 struct face_error {
@@ -33,15 +32,6 @@ struct face_error {
  * that nothing in them comes from. Returns 0, or -1 when out of memory. */
 int face_error_open(struct face_error *f, const struct problem *p, const struct hierarchy *h,
                     const double *irradiance, const struct tally *tally);
-/* The L1 error of polygons that the noise of the tally alone makes, as a share of the reflected
- * light; what polygons above large_area have of it; and its standard deviation, if polygons have no
- * noise in common. Returns 0, or -1 when out of memory. */
-struct face_noise {
-    double all, large, spread;
-};
-int face_noise_find(const struct problem *p, const struct hierarchy *h, const double *irradiance,
-                    const struct tally *tally, struct face_noise *noise);
-
 void face_error_close(struct face_error *f);
 
 #endif

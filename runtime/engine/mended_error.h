@@ -3,7 +3,7 @@
 #ifndef MENDED_ERROR_H
 #define MENDED_ERROR_H
 
-#include "engine/face_error.h"
+#include "engine/polygon_counts.h"
 #include "engine/measured_error.h"
 
 /* The L1 error of polygons, as a share of the reflected light, once the particles of the tally mend
