@@ -19,7 +19,7 @@ static const int ending[] = {SIGINT, SIGTERM, SIGHUP};
 
 static struct {
     pthread_mutex_t lock;
-    sem_t came;
+    sem_t came, begun;
     volatile sig_atomic_t number;
     const char **paths;
     size_t count, capacity;
@@ -108,11 +108,17 @@ static void end_by(int number)
     kill(getpid(), number);
 }
 
+static void wait_for(sem_t *what)
+{
+    while (sem_wait(what) != 0)
+        ;
+}
+
 static void *wait_for_signal(void *unused)
 {
     (void)unused;
-    while (sem_wait(&all.came) != 0)
-        ;
+    sem_post(&all.begun);
+    wait_for(&all.came);
     temporary_lock(); /* for good */
     for (size_t i = 0; i < all.count; i++)
         unlink(all.paths[i]);
@@ -149,7 +155,7 @@ void temporary_watch(void)
     sigset_t every, before;
     sigfillset(&every);
     pthread_mutexattr_t again;
-    if (sem_init(&all.came, 0, 0) || pthread_mutexattr_init(&again))
+    if (sem_init(&all.came, 0, 0) || sem_init(&all.begun, 0, 0) || pthread_mutexattr_init(&again))
         return;
     pthread_mutexattr_settype(&again, PTHREAD_MUTEX_RECURSIVE);
     if (pthread_mutex_init(&all.lock, &again))
@@ -157,8 +163,11 @@ void temporary_watch(void)
     pthread_sigmask(SIG_SETMASK, &every, &before); /* the thread takes none */
     all.watching = 1;                              /* which it sees */
     all.watching = pthread_create(&thread, NULL, wait_for_signal, NULL) == 0;
-    if (all.watching)
+    if (all.watching) {
         pthread_detach(thread);
+        /* a process forked while it starts would find its locks held for ever */
+        wait_for(&all.begun);
+    }
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     for (size_t i = 0; i < sizeof ending / sizeof *ending && all.watching; i++)
         catch_signal(ending[i], temporary_signal, SA_RESTART);
