@@ -17,12 +17,12 @@ bends at centre and corners alone | runtime/engine/bends.c | s/return sqrt(squar
 bends that hand does not read | tests/hand/power.c | s/{FACT_RECEIVER_BEND};/{FACT_RECEIVER_AREA};/ | runtime/check_bends
 bends seen by nobody | runtime/engine/bends.c | s/in->changed.i. .= (unsigned char)/in->changed[i] += 0 * (unsigned char)/ | runtime/check_bends
 leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#define MEND_LEAVES (256/ | runtime/check_detail
-quarters that say nothing | runtime/engine/measured_error.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
-dim faces at each look | runtime/engine/measured_error.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
+quarters that say nothing | runtime/engine/mend_solution.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
+dim faces at each look | runtime/engine/mend_solution.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
 the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high, m->alone.noise.high)/e->l1_faces.value/ | solver/check_asked
 bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = mean/f->band_noise[k] = 0 * mean/ | solver/check_bands
 parts of two walls | runtime/engine/dim_parts.c | s/p->reach \* e->normal.k - 3.;/0 * e->normal[k - 3];/ | runtime/check_dim_faces
-groups that nobody is told of | runtime/engine/measured_error.c | s/^    dim_count_add(.*$/    (void)groups;/ | runtime/check_dim_faces
+groups that nobody is told of | runtime/engine/mend_solution.c | s/^    dim_count_add(.*$/    (void)groups;/ | runtime/check_dim_faces
 light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power_scenes
 groups as white as nothing | runtime/engine/oracle_inputs.c | s/i > 0 \&\& e->reflectance/i < 0 \&\& e->reflectance/ | runtime/check_power_scenes
 leaves that nobody counted on | solver/commands/error_summary.c | s/return o->out .. o->image_error;/return o->out != NULL;/ | solver/check_asked
@@ -250,7 +250,7 @@ rims that light does not pass | runtime/hierarchy/sides.c | s/i < count \&\& !fa
 walks that end where something stands | runtime/visibility/dark_sides.c | s/!s->sides.touched\[side\]/s->sides.far > 0/ | runtime/check_dark_sides
 dark sides in the tree | runtime/hierarchy/hierarchy.c | s/dark += faces\[i\].light == FACE_DARK/dark += faces[i].light > FACE_ALONE/ | runtime/check_dark_sides
 dark fronts that shade | runtime/hierarchy/hierarchy.h | s/? !f->back : f->light == FACE_ALONE/? !f->back : !f->back/ | runtime/check_dark_sides
-leaves of one size | runtime/engine/measured_error.c | s/rays \* SMALL <= landings/1e9 * SMALL <= landings/ | runtime/check_ambient
+leaves of one size | runtime/engine/mend_solution.c | s/rays \* SMALL <= landings/1e9 * SMALL <= landings/ | runtime/check_ambient
 ambient light in the dark | runtime/engine/ambient.c | s/area \* (1 - p->reflectance\[at\])/area/ | runtime/check_ambient
 backs of another face | runtime/particles/particles.c | s/tally->back\[ray_meets_back(met)\]/tally->back[0]/ | runtime/check_backs
 backs of a replicate | runtime/engine/black_backs.c | s,/ REPLICATES / tally->power,/ tally->power, | runtime/check_backs

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "engine/api.h"
+#include "engine/mend_solution.h"
 
 /* A share of the rays that links have cast, and `more` besides, but no fewer than `least`. */
 static uint64_t share_of_rays(RadSolution solution, double share, double more, uint64_t least)

@@ -4,7 +4,8 @@
 #define MENDED_ERROR_H
 
 #include "engine/polygon_counts.h"
-#include "engine/measured_error.h"
+#include "engine/mending_goal.h"
+#include "engine/solve.h"
 
 /* The L1 error of polygons, as a share of the reflected light, once the particles of the tally mend
  * the links; noise: what particles alone would leave. The solution stays as it is. Returns 0, or -1

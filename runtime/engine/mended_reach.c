@@ -20,6 +20,7 @@
 #include <math.h>
 #include "engine/mended_error.h"
 #include "engine/mended_reach.h"
+#include "engine/solve.h"
 #include "engine/reflected_light.h"
 
 int mended_reach_find(const struct solve *s, const struct tally *tally, struct mended_reach *reach)

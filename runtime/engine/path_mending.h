@@ -3,7 +3,7 @@
 #ifndef PATH_MENDING_H
 #define PATH_MENDING_H
 
-#include "engine/measured_error.h"
+#include "engine/mending_goal.h"
 #include "particles/path_tally.h"
 
 /* Where a first look by particles (tally) foretells many rays until the error of polygons is what

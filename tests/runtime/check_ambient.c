@@ -4,7 +4,7 @@
  * but particles has told where that is? And the same bits by any number of threads.
  * SPDX-License-Identifier: MIT */
 #include "runtime/make_solve.h"
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "suite.h"
 
 static struct solve_options without_links(int threads)

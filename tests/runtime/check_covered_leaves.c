@@ -5,7 +5,7 @@
 #include "runtime/make_solve.h"
 #include "engine/covered_leaves.h"
 #include "engine/element_light.h"
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "kernel/constants.h"
 #include "kernel/leaf_at.h"
 #include "suite.h"

@@ -5,7 +5,7 @@
 #include "runtime/make_solve.h"
 #include "engine/detail.h"
 #include "engine/element_light.h"
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "engine/ray_split.h"
 #include "kernel/constants.h"
 #include "kernel/leaf_at.h"

@@ -11,7 +11,7 @@
 #include "engine/dim_parts.h"
 #include "engine/dim_plan.h"
 #include "engine/lit_faces.h"
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "engine/mend.h"
 #include "engine/solve_tracer.h"
 #include "kernel/constants.h"

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include "runtime/spoilt.h"
 #include "engine/element_light.h"
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "engine/mend.h"
 #include "engine/ray_split.h"
 #include "suite.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 #include "runtime/spoilt.h"
 #include "engine/mend.h"
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "engine/mended_error.h"
 #include "engine/reflected_light.h"
 #include "kernel/constants.h"

@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <stdio.h>
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "engine/mended_error.h"
 #include "engine/path_mending.h"
 #include "engine/reflected_light.h"

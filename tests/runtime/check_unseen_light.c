@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
-#include "engine/measured_error.h"
+#include "engine/mend_solution.h"
 #include "runtime/make_solve.h"
 #include "suite.h"
 
