@@ -209,7 +209,7 @@ $(TESTS:=.o): PARALLEL = -fopenmp
 ASK_MPI   = $(BUILD)/runtime/util/ranks.o $(BUILD)/solver/util/machines.o
 $(ASK_MPI): CPPFLAGS += $(MPI_CFLAGS)
 $(ASK_MPI): $(BUILD)/mpi
-ASK_PETSC = $(patsubst %,$(BUILD)/runtime/engine/petsc_%.o,start sums solution)
+ASK_PETSC = $(patsubst %,$(BUILD)/runtime/engine/petsc_%.o,start sums equation solution)
 $(ASK_PETSC): CPPFLAGS += $(MPI_CFLAGS) $(PETSC_CFLAGS)
 $(ASK_PETSC): $(BUILD)/petsc
 ASK_HDF5  = $(BUILD)/solver/output/hdf5_file.o
