@@ -83,7 +83,7 @@ static int read_line(struct sensors *s, const char *path, struct text_lines *t)
                                 "a sensor has 6 numbers, x y z nx ny nz, here are %d; write a "
                                 "position in m and a direction",
                                 k);
-        if (!word_number(t, &value[k]) || !(fabs(value[k]) <= (double)FLT_MAX))
+        if (!word_number(t, &value[k]) || !is_finite_float(value[k]))
             return report_error(path, t->number,
                                 "'%.*s' is not a finite number in x y z nx ny nz; write a decimal "
                                 "number",

@@ -46,10 +46,9 @@ int gmsh_number(struct gmsh_numbers *g, const char *what, double *x)
     if (gmsh_bits(g, what, 8, &bits))
         return -1;
     memcpy(x, &bits, sizeof *x);
-    return fabs(*x) <= (double)FLT_MAX
-               ? 0
-               : report_error(g->mesh->path, t->number, "%s is not finite; write finite numbers",
-                              what);
+    return is_finite_float(*x) ? 0
+                               : report_error(g->mesh->path, t->number,
+                                              "%s is not finite; write finite numbers", what);
 }
 
 static int take_whole_of(struct gmsh_numbers *g, const char *what, unsigned size, int64_t *i)

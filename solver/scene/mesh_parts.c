@@ -72,7 +72,7 @@ int mesh_unexpected(const struct mesh *m, const struct text_lines *t, const char
 
 int mesh_number(const struct mesh *m, const struct text_lines *t, const char *what, double *x)
 {
-    return word_number(t, x) && fabs(*x) <= (double)FLT_MAX ? 0 : mesh_unexpected(m, t, what);
+    return word_number(t, x) && is_finite_float(*x) ? 0 : mesh_unexpected(m, t, what);
 }
 
 /* ---- nodes */
@@ -93,7 +93,7 @@ int mesh_define_node(struct mesh *m, int64_t number, const double position[3], u
 {
     uint32_t index;
     for (int k = 0; k < 3; k++)
-        if (!(fabs(position[k]) <= (double)FLT_MAX))
+        if (!is_finite_float(position[k]))
             return report_error(m->path, line,
                                 "node %lld has a coordinate that is not finite; write a finite "
                                 "number",

@@ -20,6 +20,8 @@
 
 enum { SURFACE = 2 };
 
+#define TO_OLDER "gmsh -0 -format msh22 -o NEW.msh OLD.msh" /* what reads more kinds than we do */
+
 struct gmsh {
     struct mesh mesh;
     struct gmsh_numbers in;
@@ -47,16 +49,13 @@ static int read_format(struct gmsh *g)
     g->in.version = version >= 2 && version < 3 ? 2 : version >= 4.1 && version < 5 ? 4 : 0;
     if (!g->in.version)
         return report_error(g->mesh.path, g->in.lines.number,
-                            "version %g is not read; convert it: gmsh -0 -format msh22 -o NEW.msh "
-                            "OLD.msh",
-                            version);
+                            "version %g is not read; convert it: " TO_OLDER, version);
     g->in.binary = binary > 0;
     if (!g->in.binary)
         return gmsh_need_end(&g->in, "$EndMeshFormat");
     if (size < 8 || size > 8)
         return report_error(g->mesh.path, g->in.lines.number,
-                            "a binary mesh with numbers of %g bytes, not 8; convert it: gmsh -0 "
-                            "-format msh22 -o NEW.msh OLD.msh",
+                            "a binary mesh with numbers of %g bytes, not 8; convert it: " TO_OLDER,
                             size);
     if (gmsh_bits(&g->in, "the number 1", 4, &one)) /* by which the order of bytes is told */
         return -1;
@@ -303,16 +302,17 @@ static int read_element(struct gmsh *g, int64_t type, int64_t group)
     const int all = nodes_of(type), corners = corners_of(type);
     int64_t ignored;
     if (type < 1 || type > GMSH_TYPES)
-        return report_error(g->mesh.path, g->in.lines.number,
-                            "an element of type %lld: types are 1 to %d", (long long)type,
-                            GMSH_TYPES);
+        return report_error(
+            g->mesh.path, g->in.lines.number,
+            "an element of type %lld: types are 1 to %d; the file is damaged, export "
+            "it again",
+            (long long)type, GMSH_TYPES);
     if (!g->in.bytes)
         return read_corners(g, type, group);
     if (!all)
         return report_error(
             g->mesh.path, g->in.lines.number,
-            "an element of type %lld, which is not known; convert the mesh: gmsh -0 "
-            "-format msh22 -o NEW.msh OLD.msh",
+            "an element of type %lld, which is not known; convert the mesh: " TO_OLDER,
             (long long)type);
     if (read_corners(g, type, group))
         return -1;
@@ -431,7 +431,7 @@ static int read_section(struct gmsh *g)
     if (!g->in.version)
         return report_error(g->mesh.path, t->number,
                             "no $MeshFormat before this section; the file is older than version 2 "
-                            "or damaged: convert it with gmsh -0 -format msh22 -o NEW.msh OLD.msh");
+                            "or damaged: convert it with " TO_OLDER);
     if (word_is(t, "$PhysicalNames"))
         return read_names(g);
     if (word_is(t, "$Entities") && g->in.version == 4)
@@ -447,9 +447,9 @@ static int read_section(struct gmsh *g)
         return g->in.version == 4 ? read_elements_4(g) : read_elements_2(g);
     }
     if (word_is(t, "$ParametricNodes"))
-        return report_error(g->mesh.path, t->number,
-                            "nodes with their places on surfaces are not read; convert the mesh: "
-                            "gmsh -0 -format msh22 -o NEW.msh OLD.msh");
+        return report_error(
+            g->mesh.path, t->number,
+            "nodes with their places on surfaces are not read; convert the mesh: " TO_OLDER);
     return pass_over(g);
 }
 

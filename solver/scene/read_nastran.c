@@ -107,7 +107,7 @@ static int field_number(const struct nastran *a, int i, const char *what, double
     }
     plain[n] = '\0';
     *x = strtod(plain, &stop);
-    if (*stop || !(fabs(*x) <= (double)FLT_MAX))
+    if (*stop || !is_finite_float(*x))
         return report_error(a->mesh.path, a->card.line,
                             "'%s' where %s of %s belongs; write a finite number", a->card.field[i],
                             what, a->card.name);
@@ -127,11 +127,25 @@ static int field_whole(const struct nastran *a, int i, const char *what, int64_t
     return 0;
 }
 
+/* Field 1, the coordinate system that points are given in; 0 where it is empty. */
+static int field_system(const struct nastran *a, int64_t *system)
+{
+    double x;
+    if (field_number(a, 1, "a system", &x))
+        return -1;
+    if (!is_whole(x, 1e15))
+        return report_error(a->mesh.path, a->card.line,
+                            "%g where a system of %s belongs; write a whole number, 0 or more", x,
+                            a->card.name);
+    *system = (int64_t)x;
+    return 0;
+}
+
 static int read_grid(struct nastran *a)
 {
-    int64_t number;
-    double system, p[3];
-    if (field_whole(a, 0, "the number", &number) || field_number(a, 1, "a system", &system)
+    int64_t number, system;
+    double p[3];
+    if (field_whole(a, 0, "the number", &number) || field_system(a, &system)
         || field_number(a, 2, "x", &p[0]) || field_number(a, 3, "y", &p[1])
         || field_number(a, 4, "z", &p[2]))
         return -1;
@@ -141,14 +155,10 @@ static int read_grid(struct nastran *a)
                             "again",
                             (long long)number);
     const char by_default = !*a->card.field[1];
-    if (!by_default && !(system < 0 || system > 0))
+    if (!by_default && !system)
         return mesh_define_node(&a->mesh, number, p, a->card.line);
-    if (!is_whole(system, 1e15))
-        return report_error(a->mesh.path, a->card.line,
-                            "GRID %lld is in coordinate system %g; write a whole number",
-                            (long long)number, system);
     const struct nastran_point point = {.number = number,
-                                        .system = (int64_t)system,
+                                        .system = system,
                                         .at = {p[0], p[1], p[2]},
                                         .line = line_kept(a),
                                         .by_default = by_default};
@@ -158,14 +168,7 @@ static int read_grid(struct nastran *a)
 /* GRDSET: points that name no system are in this one. */
 static int read_defaults(struct nastran *a)
 {
-    double system;
-    if (field_number(a, 1, "a system", &system))
-        return -1;
-    if (!is_whole(system, 1e15))
-        return report_error(a->mesh.path, a->card.line, "%g where a system of %s belongs", system,
-                            a->card.name);
-    a->systems.default_system = (int64_t)system;
-    return 0;
+    return field_system(a, &a->systems.default_system);
 }
 
 static int add_system(struct nastran *a, const struct nastran_system *s)
@@ -188,13 +191,8 @@ static int add_system(struct nastran *a, const struct nastran_system *s)
 static int read_system_of_points(struct nastran *a)
 {
     struct nastran_system s = {.kind = a->card.name[5], .line = line_kept(a)};
-    double other;
-    if (field_whole(a, 0, "the number", &s.number) || field_number(a, 1, "a system", &other))
+    if (field_whole(a, 0, "the number", &s.number) || field_system(a, &s.within))
         return -1;
-    if (!is_whole(other, 1e15))
-        return report_error(a->mesh.path, a->card.line, "%g where a system of %s belongs", other,
-                            a->card.name);
-    s.within = (int64_t)other;
     for (int k = 0; k < 9; k++)
         if (field_number(a, 2 + k, "a coordinate", &s.at[k / 3][k % 3]))
             return -1;

@@ -16,6 +16,13 @@ static inline int quoted_length(const char *from, const char *end)
     return end - from < QUOTED ? (int)(end - from) : QUOTED;
 }
 
+/* Coordinates are handed to programs that know floats alone: what none of these can hold is no
+ * number here. */
+static inline int is_finite_float(double x)
+{
+    return fabs(x) <= (double)FLT_MAX;
+}
+
 /* Does a decimal number say more than a float? Then it is off the next float by more than half a
  * unit in its last place; else a program that keeps floats may have written it. */
 static inline int is_finer_than_float(const char *word, const char *end, double x)
@@ -45,7 +52,7 @@ static inline int read_numbers(struct text_lines *t, const char *path, const cha
             return report_error(path, t->number,
                                 "'%.*s' is not a number in %s; write a decimal number", length,
                                 t->word, what);
-        if (!(fabs(x) <= (double)FLT_MAX))
+        if (!is_finite_float(x))
             return report_error(path, t->number, "%s is not finite ('%.*s'); write a finite number",
                                 what, length, t->word);
         if (count < most) {

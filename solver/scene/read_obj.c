@@ -6,8 +6,6 @@
 #include "scene/read_obj.h"
 
 #include <errno.h>
-#include <float.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,8 +68,7 @@ static int read_vertex(struct obj *o, struct text_lines *t)
             materials_assume(&o->materials, WEIGHT, o->path, line, "", NULL);
         for (int k = 0; k < 3; k++)
             p[k] /= p[3];
-        if (!(fabs(p[0]) <= (double)FLT_MAX && fabs(p[1]) <= (double)FLT_MAX
-              && fabs(p[2]) <= (double)FLT_MAX))
+        if (!is_finite_float(p[0]) || !is_finite_float(p[1]) || !is_finite_float(p[2]))
             return report_error(o->path, line,
                                 "a vertex is not finite when divided by its w, %g; give x, y and z",
                                 p[3]);

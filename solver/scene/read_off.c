@@ -70,7 +70,7 @@ static int read_vertex(struct scene_file *f, const char *path, struct text_lines
 {
     double p[3];
     for (int k = 0; k < 3; k++)
-        if (!next_word(t) || !word_number(t, &p[k]) || !(fabs(p[k]) <= (double)FLT_MAX))
+        if (!next_word(t) || !word_number(t, &p[k]) || !is_finite_float(p[k]))
             return report_error(path, t->number,
                                 "vertex %u has no three finite numbers; give x, y and z",
                                 (unsigned)i);

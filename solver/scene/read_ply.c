@@ -19,12 +19,13 @@ enum type { I8, U8, I16, U16, I32, U32, F32, F64, TYPES };
 
 static const struct {
     const char *name, *other;
+    char kind; /* as of typed_number */
     unsigned size;
 } types[TYPES] = {
-    [I8] = {"char", "int8", 1},      [U8] = {"uchar", "uint8", 1},
-    [I16] = {"short", "int16", 2},   [U16] = {"ushort", "uint16", 2},
-    [I32] = {"int", "int32", 4},     [U32] = {"uint", "uint32", 4},
-    [F32] = {"float", "float32", 4}, [F64] = {"double", "float64", 8},
+    [I8] = {"char", "int8", 'I', 1},      [U8] = {"uchar", "uint8", 'U', 1},
+    [I16] = {"short", "int16", 'I', 2},   [U16] = {"ushort", "uint16", 'U', 2},
+    [I32] = {"int", "int32", 'I', 4},     [U32] = {"uint", "uint32", 'U', 4},
+    [F32] = {"float", "float32", 'F', 4}, [F64] = {"double", "float64", 'F', 8},
 };
 
 enum role { PASSED_OVER, X, Y, Z, CORNERS, STRIPS };
@@ -182,20 +183,8 @@ static int next_value(struct ply *p, enum type type, double *value)
     unsigned size = types[type].size;
     if ((size_t)(p->end - p->next) < size)
         return -1;
-    uint64_t bits = bytes_number(p->next, size, p->big_endian);
+    *value = typed_number(p->next, types[type].kind, size, p->big_endian);
     p->next += size;
-    uint64_t sign = (uint64_t)1 << (8 * size - 1);
-    if (type == F64) {
-        memcpy(value, &bits, sizeof *value);
-    } else if (type == F32) {
-        uint32_t half = (uint32_t)bits;
-        float single;
-        memcpy(&single, &half, sizeof single);
-        *value = (double)single;
-    } else {
-        int is_signed = type == I8 || type == I16 || type == I32;
-        *value = is_signed && (bits & sign) ? (double)bits - 2 * (double)sign : (double)bits;
-    }
     return 0;
 }
 
@@ -269,7 +258,7 @@ static int read_one(struct ply *p, const struct ply_element *e, uint64_t i, uint
             return cut(p, e, i);
         if (from->role == PASSED_OVER)
             continue;
-        if (!(fabs(value) <= (double)FLT_MAX))
+        if (!is_finite_float(value))
             return report_error(p->path, p->bytes ? 0 : p->lines.number,
                                 "vertex %llu is not finite; correct its coordinates",
                                 (unsigned long long)i);

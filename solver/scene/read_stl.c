@@ -28,11 +28,8 @@ static int read_bytes(struct scene_file *f, const char *path, const char *text, 
         for (int j = 0; j < 3; j++) {
             double p[3];
             for (int k = 0; k < 3; k++, from += 4) {
-                uint32_t bits = (uint32_t)bytes_number(from, 4, 0);
-                float single;
-                memcpy(&single, &bits, sizeof single);
-                p[k] = (double)single;
-                if (!(fabs(p[k]) <= (double)FLT_MAX))
+                p[k] = typed_number(from, 'F', 4, 0);
+                if (!is_finite_float(p[k]))
                     return report_error(path, 0,
                                         "triangle %u has a corner that is not finite; correct its "
                                         "coordinates",

@@ -28,9 +28,10 @@ struct vs3 {
     struct text_lines lines;
     struct surface *surface;
     size_t count, capacity;
-    int planes; /* 1: F 3a */
-    /* how many emittances, subsurfaces and obstructions, and where the first is */
-    uint32_t clamped, moved, obstructions, clamped_line, moved_line, obstruction_line;
+    int planes;               /* 1: F 3a */
+    struct mesh_note clamped; /* emittances */
+    struct mesh_note moved;   /* subsurfaces */
+    struct mesh_note obstructions;
 };
 
 /* The next word, which may be on another line; a comment ends a line. Returns 0 at the end. */
@@ -49,8 +50,9 @@ static int take_number(struct vs3 *v, const char *what, double *x)
 {
     const uint32_t line = v->lines.number;
     if (!next_value(v))
-        return report_error(v->mesh.path, line, "ends before %s; the file is cut", what);
-    if (!word_number(&v->lines, x) || !(fabs(*x) <= (double)FLT_MAX))
+        return report_error(v->mesh.path, line, "ends before %s; the file is cut, export it again",
+                            what);
+    if (!word_number(&v->lines, x) || !is_finite_float(*x))
         return report_error(v->mesh.path, v->lines.number,
                             "'%.*s' where %s belongs; write a finite number",
                             quoted_length(v->lines.word, v->lines.word_end), v->lines.word, what);
@@ -101,8 +103,8 @@ static int read_surface_data(struct vs3 *v, uint32_t number, struct surface *s)
         return report_error(v->mesh.path, v->lines.number,
                             "surface %lu has emittance %g; it must be within 0 and 1",
                             (unsigned long)number, emittance);
-    if (emittance < 1e-3 && !v->clamped++)
-        v->clamped_line = v->lines.number;
+    if (emittance < 1e-3)
+        mesh_note(&v->clamped, v->lines.number);
     const double reflectance = 1 - fmax(emittance, 1e-3);
     if (with) {
         s->material = v->surface[with - 1].material;
@@ -171,7 +173,7 @@ static int read_plane(struct vs3 *v, uint32_t number, int shape, struct surface 
         const double p[3] = {at[0] - x * c[0] - y * sine[0], at[1] + x * sine[0] - y * c[0],
                              at[2] + flat[i][1] * sine[1]};
         for (int k = 0; k < 3; k++)
-            if (!(fabs(p[k]) <= (double)FLT_MAX))
+            if (!is_finite_float(p[k]))
                 return report_error(
                     v->mesh.path, v->lines.number,
                     "surface %lu has a corner that is not finite; correct its plane",
@@ -209,8 +211,8 @@ static int read_surface(struct vs3 *v, int kind)
     } else if (read_corners(v, number, &s)) {
         return -1;
     }
-    if (kind == 'O' && !v->obstructions++)
-        v->obstruction_line = s.line;
+    if (kind == 'O')
+        mesh_note(&v->obstructions, s.line);
     if (kind == 'O' ? mesh_material(&v->mesh, "obstruction", 11, 0, &s.material)
                     : read_surface_data(v, number, &s))
         return -1;
@@ -274,8 +276,8 @@ static uint32_t depths(struct vs3 *v, uint32_t *depth)
         const uint32_t base = v->surface[i].base;
         depth[i] = base ? depth[base - 1] + 1 : 0;
         most = depth[i] > most ? depth[i] : most;
-        if (base && !v->moved++)
-            v->moved_line = v->surface[i].line;
+        if (base)
+            mesh_note(&v->moved, v->surface[i].line);
     }
     return most;
 }
@@ -313,8 +315,9 @@ static int hand_over(struct vs3 *v)
 int read_vs3(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
 {
     struct vs3 v = {.mesh = {.file = f, .path = path}, .lines = text_lines(text, size)};
-    int result =
-        memchr(text, 0, size) ? report_error(path, 0, "not a text, hence no View3D input") : 0;
+    int result = memchr(text, 0, size)
+                     ? report_error(path, 0, "not a text, hence no View3D input; check the format")
+                     : 0;
     int ended = 0;
     while (!result && !ended && next_value(&v)) {
         ended = *v.lines.word == '*' || toupper((unsigned char)*v.lines.word) == 'E';
@@ -325,19 +328,19 @@ int read_vs3(struct scene_file *f, const char *path, char *text, size_t size, in
                        "ends without E or *, which belong behind the last entry: is it cut off?");
     if (!result)
         result = hand_over(&v) || mesh_finish(&v.mesh, quiet) ? -1 : 0;
-    if (!result && v.clamped && !quiet)
-        report_warning(path, v.clamped_line, "%lu emittances below 0.001 are taken for 0.001",
-                       (unsigned long)v.clamped);
-    if (!result && v.moved && !quiet)
-        report_warning(path, v.moved_line,
+    if (!result && v.clamped.count && !quiet)
+        report_warning(path, v.clamped.first, "%lu emittances below 0.001 are taken for 0.001",
+                       (unsigned long)v.clamped.count);
+    if (!result && v.moved.count && !quiet)
+        report_warning(path, v.moved.first,
                        "%lu subsurfaces take from their bases: their rows come first, all others "
                        "after them in the file's order",
-                       (unsigned long)v.moved);
-    if (!result && v.obstructions && !quiet)
-        report_warning(path, v.obstruction_line,
+                       (unsigned long)v.moved.count);
+    if (!result && v.obstructions.count && !quiet)
+        report_warning(path, v.obstructions.first,
                        "%lu obstructions are black surfaces, with rows and columns of their own, "
                        "which View3D leaves out",
-                       (unsigned long)v.obstructions);
+                       (unsigned long)v.obstructions.count);
     mesh_free(&v.mesh);
     free(v.surface);
     return result;

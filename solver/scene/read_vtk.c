@@ -105,10 +105,9 @@ static int take_number(struct vtk *v, const char *what, double *x)
     if (!at)
         return -1;
     *x = typed_number(at, v->type->kind, v->type->size, 1);
-    return fabs(*x) <= (double)FLT_MAX
-               ? 0
-               : report_error(v->mesh.path, v->lines.number,
-                              "%s is not finite; write finite numbers", what);
+    return is_finite_float(*x) ? 0
+                               : report_error(v->mesh.path, v->lines.number,
+                                              "%s is not finite; write finite numbers", what);
 }
 
 static int take_count(struct vtk *v, const char *what, size_t *count)

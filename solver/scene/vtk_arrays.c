@@ -16,7 +16,7 @@
 
 static int add_value(struct vtk_arrays *a, struct vtk_values *v, double value)
 {
-    if (!(fabs(value) <= (double)FLT_MAX))
+    if (!is_finite_float(value))
         return report_error(a->path, v->line,
                             "an array has a number that is not finite; write finite numbers");
     if (array_reserve(&v->at, v->count + 1, &v->capacity, sizeof *v->at))

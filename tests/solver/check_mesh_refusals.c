@@ -75,7 +75,7 @@ START_TEST(test_refusals)
         {"a.bdf", "CORD1S,4,1,2\n", ":1: error: 0 where a point of CORD1S belongs"},
         {"a.bdf", "CORD2R,4,-1\n", ":1: error: -1 where a system of CORD2R belongs"},
         {"a.bdf", "GRDSET,,.5\n", ":1: error: 0.5 where a system of GRDSET belongs"},
-        {"a.bdf", "GRID,1,.5,0,0,0\n", ":1: error: GRID 1 is in coordinate system 0.5; write"},
+        {"a.bdf", "GRID,1,.5,0,0,0\n", ":1: error: 0.5 where a system of GRID belongs; write"},
         {"a.bdf", "GRID           1             1.x      0.      0.\n",
          ":1: error: '1.x' where x of GRID belongs"},
         {"a.bdf", "$\nCQUAD4,1,1,1,2,3\n", ":2: error: 0 where a corner of CQUAD4 belongs"},
