@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include "commands/product_columns.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,9 +79,9 @@ int columns_read(struct columns *c, const char *path, uint32_t faces)
 {
     size_t size;
     int lines = 0;
-    *c = (struct columns){.text = text_file_read(path, &size)};
+    *c = (struct columns){.text = text_file_need(path, &size)};
     if (!c->text)
-        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+        return -1;
     struct text_lines t = text_lines(c->text, size);
     while (next_line(&t)) {
         struct text_lines ahead = t;

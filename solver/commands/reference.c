@@ -9,6 +9,7 @@
  * In the end the two are held against each other: by the whole light, and face by face. They share
  * the scene and its rays, but one starts where the other ends.
  * SPDX-License-Identifier: MIT */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,7 +89,9 @@ static int load(struct run *r)
         return 0;
     char *bytes = text_file_read(r->state, &size);
     if (!bytes)
-        return report_error(r->state, 0, "cannot be read; remove it to start anew");
+        return report_error(r->state, 0,
+                            "cannot be read: %s; remove it to start anew, or give -o another name",
+                            strerror(errno));
     int failed = radLoadReference(r->reference, bytes, size) < 0;
     free(bytes);
     if (failed) {

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include "commands/sensor_rows.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,9 +102,9 @@ static int read_line(struct sensors *s, const char *path, struct text_lines *t)
 static int read_sensors(struct sensors *s, const char *path)
 {
     size_t size;
-    s->text = text_file_read(path, &size);
+    s->text = text_file_need(path, &size);
     if (!s->text)
-        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+        return -1;
     struct text_lines t = text_lines(s->text, size);
     while (next_line(&t)) {
         struct text_lines ahead = t;

@@ -8,7 +8,6 @@
  * A limit of time is shared out evenly to these fits, so that it cuts all of them short rather than
  * leaving the last ones out. SIGINT ends them all; the best so far is told and written.
  * SPDX-License-Identifier: MIT */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,9 +49,9 @@ static int read_graph(struct work *w)
     const struct options *o = w->options;
     const char *built_in = radGetOracleText(o->oracle);
     size_t size;
-    w->text = built_in ? strdup(built_in) : text_file_read(o->oracle, &size);
+    w->text = built_in ? strdup(built_in) : text_file_need(o->oracle, &size);
     if (!w->text)
-        return report_error(o->oracle, 0, "cannot be read: %s", strerror(errno ? errno : ENOMEM));
+        return built_in ? report_error(o->oracle, 0, "out of memory for the graph") : -1;
     RadOracle there = radParseOracle(w->device, o->out, w->text, NULL, RAD_RELEASE_DAG);
     if (!there) {
         (void)radGetDeviceError(w->device);

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include "output/faces_table.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -164,9 +163,9 @@ int faces_table_read(struct faces_table *t, const char *path, uint32_t faces)
 {
     size_t size, rows = 0;
     *t = (struct faces_table){0};
-    t->text = text_file_read(path, &size);
+    t->text = text_file_need(path, &size);
     if (!t->text)
-        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+        return -1;
     for (const char *c = t->text; (c = strchr(c, '\n')); c++)
         rows++;
     int failed = strlen(t->text) != size

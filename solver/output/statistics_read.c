@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: MIT */
 #include "output/statistics_read.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,11 +102,9 @@ static int check(const char *path, const json_t *document)
 json_t *statistics_read(const char *path)
 {
     size_t size;
-    char *text = text_file_read(path, &size);
-    if (!text) {
-        report_error(path, 0, "cannot be read: %s", strerror(errno));
+    char *text = text_file_need(path, &size);
+    if (!text)
         return NULL;
-    }
     json_error_t error;
     json_t *document = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
     free(text);

@@ -6,7 +6,6 @@
  * SPDX-License-Identifier: MIT */
 #include "scene/gltf_materials.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
@@ -24,13 +23,9 @@ static const double SAME_COLOUR = 1e-6;
 static json_t *read_json(const char *path, int quiet)
 {
     size_t size;
-    char *text = text_file_read(path, &size);
-    if (!text && quiet)
+    char *text = (quiet ? text_file_read : text_file_need)(path, &size);
+    if (!text)
         return NULL;
-    if (!text) {
-        report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
-        return NULL;
-    }
     const char *from = text;
     if (size >= 20 && memcmp(text, "glTF", 4) == 0) {
         uint32_t length = (uint32_t)bytes_number(text + 12, 4, 0);

@@ -174,9 +174,9 @@ int read_obj(struct scene_file *file, const char *path, int quiet)
     struct obj o = {
         .file = file, .path = path, .materials = {.file = file, .path = path}, .current = NONE};
     size_t size;
-    char *text = text_file_read(path, &size);
+    char *text = text_file_need(path, &size);
     if (!text)
-        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+        return -1;
     int result;
     if (memchr(text, 0, size))
         result = report_error(path, 0, "not a text, hence no OBJ file; check the format");

@@ -143,9 +143,9 @@ static int read_shape(struct scene_file *f, const char *path, const struct shape
         "faces reflect what they do not emit as grey bodies; none shines by itself"};
     const struct RadMaterial grey = {.reflectance = {0.5, 0.5, 0.5}};
     size_t size;
-    char *text = text_file_read(path, &size);
+    char *text = text_file_need(path, &size);
     if (!text)
-        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+        return -1;
     int result =
         format->materials == ALL_GREY && scene_file_add_material(f, "DefaultMaterial", &grey)
             ? scene_file_no_memory(path)

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include "util/parameter_file.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -147,9 +146,9 @@ int parameter_file_apply(const char *path, RadDevice device, RadOracle oracle, c
     struct parameter_file f = {.path = path, .named = named, .device = device, .oracle = oracle};
     radGetOracleReport(oracle, &f.report);
     size_t size;
-    char *text = text_file_read(path, &size);
+    char *text = text_file_need(path, &size);
     if (!text)
-        return report_error(path, 0, "cannot read it: %s", strerror(errno));
+        return -1;
     f.lines = calloc((size_t)f.report.parameter_count + 1, sizeof *f.lines);
     int status = f.lines ? 0 : report_error(path, 0, "out of memory");
     if (status == 0 && strlen(text) != size)

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "util/array.h"
+#include "util/report.h"
 
 /* What is read of a pipe (bytes), which may have no end; chosen. */
 static const size_t PIPE_MOST = (size_t)1 << 30;
@@ -52,6 +53,14 @@ char *text_file_read(const char *path, size_t *size)
     }
     text[used] = 0;
     *size = used;
+    return text;
+}
+
+char *text_file_need(const char *path, size_t *size)
+{
+    char *text = text_file_read(path, size);
+    if (!text)
+        report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
     return text;
 }
 

@@ -10,7 +10,11 @@
  * of a pipe 1 GB. */
 char *text_file_read(const char *path, size_t *size);
 
-/* The same of a file that another file names: a pipe is none, for it could be waited for for ever.
+/* The same, or NULL after a message. */
+char *text_file_need(const char *path, size_t *size);
+
+/* The same as the first, of a file that another file names: a pipe is none, for it could be waited
+ * for for ever.
  */
 char *text_file_read_regular(const char *path, size_t *size);
 

@@ -465,7 +465,7 @@ START_TEST(test_damaged)
     ck_assert_int_eq(
         run("", "draw bf --statistics %s -o %s", in_folder("missing.json"), in_folder("none.svg")),
         1);
-    ck_assert_ptr_nonnull(strstr(message, "missing.json: error: cannot be read: No such file"));
+    ck_assert_ptr_nonnull(strstr(message, "missing.json: error: cannot read: No such file"));
 }
 END_TEST
 

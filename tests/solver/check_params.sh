@@ -66,8 +66,8 @@ said() { # TEXT FILE
     solve --oracle ff --params "$2" >out && failed "taken: $2"
     [ "$(wc -l <err)" = 1 ] && grep -qF "$1" err || failed "not said: $1"
 }
-said "none: error: cannot read it: No such file" none
-said "error: cannot read it: Is a directory" /
+said "none: error: cannot read: No such file or directory; check the name" none
+said "error: cannot read: Is a directory; check the name" /
 : >empty
 said "empty: error: no line says whose parameters these are; write oracle ff" empty
 printf 'oracle ff\nlimit\0 = 1' >zero
