@@ -1,17 +1,16 @@
 /* check_outputs.c - see check_outputs.h.
  *
- * Files are told apart by device and inode, and those that are not there yet by their folder's and
- * their name, so that ./x, x and links to it are one. What a scene names inside it, and what is
- * written beside a mesh, are files as those of the command line are.
+ * What a scene names inside it, and what is written beside a mesh, are files as those of the
+ * command line are.
  * SPDX-License-Identifier: MIT */
 #include "commands/check_outputs.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "commands/commands.h"
 #include "output/export.h"
 #include "scene/materials_by_name.h"
 #include "scene/text_lines.h"
@@ -24,9 +23,9 @@
 #include "util/text_file.h"
 
 struct named_file {
-    char *path; /* owned */
-    const char *what;
-    int beside; /* it is written beside another output, which the command line names */
+    char *path;       /* owned */
+    const char *what; /* an input: what it is */
+    int beside; /* an output: it is written beside another output, which the command line names */
 };
 
 struct named_files {
@@ -50,7 +49,7 @@ static int add_input(struct named_files *f, char *path, const char *what)
     if (!path
         || array_reserve(&f->inputs, f->input_count + 1, &f->input_capacity, sizeof *f->inputs) < 0)
         return free(path), -1;
-    f->inputs[f->input_count++] = (struct named_file){path, what, 0};
+    f->inputs[f->input_count++] = (struct named_file){.path = path, .what = what};
     return 0;
 }
 
@@ -60,11 +59,9 @@ static int add_output(struct named_files *f, char *path, int beside)
         || array_reserve(&f->outputs, f->output_count + 1, &f->output_capacity, sizeof *f->outputs)
                < 0)
         return free(path), -1;
-    f->outputs[f->output_count++] = (struct named_file){path, "output", beside};
+    f->outputs[f->output_count++] = (struct named_file){.path = path, .beside = beside};
     return 0;
 }
-
-/* ---- which are the same */
 
 /* ---- which files */
 
@@ -118,9 +115,8 @@ static int add_scene_files(struct named_files *f, const char *scene, const char 
     struct stat status;
     if (add_input(f, strdup(scene), what))
         return -1;
-    const char *dot = strrchr(scene, '.'), *kind = dot ? dot : "";
-    const int is_obj = strcasecmp(kind, ".obj") == 0;
-    if ((!is_obj && strcasecmp(kind, ".gltf") != 0) || stat(scene, &status)
+    const int is_obj = ends_with_any_case(scene, ".obj");
+    if ((!is_obj && !ends_with_any_case(scene, ".gltf")) || stat(scene, &status)
         || !S_ISREG(status.st_mode))
         return 0;
     size_t size;
@@ -196,11 +192,8 @@ static int add_outputs(struct named_files *f, const struct options *o)
     for (int i = 0; i < count; i++)
         if (add_output(f, strdup(paths[i]), 0))
             return -1;
-    if (o->command == COMMAND_REFERENCE) { /* its state */
-        char *state = malloc(strlen(o->out) + sizeof ".state");
-        if (add_output(f, state ? strcat(strcpy(state, o->out), ".state") : NULL, 0))
-            return -1;
-    }
+    if (o->command == COMMAND_REFERENCE && add_output(f, path_and(o->out, REFERENCE_STATE), 0))
+        return -1;
     if (o->command == COMMAND_VIEWFACTORS && o->out && o->format == FACTOR_OPENFOAM
         && (add_output(f, path_beside(o->out, FACTOR_FACES, strlen(FACTOR_FACES)), 1)
             || add_output(f, path_beside(o->out, FACTOR_MAP, strlen(FACTOR_MAP)), 1)))
@@ -220,7 +213,7 @@ static int add_outputs(struct named_files *f, const struct options *o)
 static int check(const struct named_files *f, size_t i)
 {
     const struct named_file *out = &f->outputs[i];
-    const int standard = strcmp(out->path, "-") == 0;
+    const int standard = path_is_stdout(out->path);
     struct stat status;
     for (size_t j = 0; j < f->input_count && !standard; j++)
         if (stat(f->inputs[j].path, &status) == 0 && S_ISREG(status.st_mode)
@@ -229,7 +222,7 @@ static int check(const struct named_files *f, size_t i)
                                 f->inputs[j].what),
                    2;
     for (size_t j = 0; j < i; j++)
-        if (standard ? strcmp(f->outputs[j].path, "-") == 0
+        if (standard ? path_is_stdout(f->outputs[j].path)
                      : same_file(out->path, f->outputs[j].path))
             return report_error(standard ? "standard output" : out->path, 0,
                                 "two outputs would go there; give each a file of its own"),

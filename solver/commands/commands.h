@@ -7,6 +7,9 @@
 #include "options/options.h"
 #include "scene/open_scene.h"
 
+/* Behind the name of a reference's output: the file that an unfinished one goes on from. */
+#define REFERENCE_STATE ".state"
+
 int command_solve(const struct options *options, const struct open_scene *scene);
 int command_compare(const struct options *options, const struct open_scene *scene);
 int command_viewfactors(const struct options *options, const struct open_scene *scene);

@@ -16,11 +16,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include "commands/commands.h"
 #include "output/faces_table.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
+#include "util/beside.h"
 #include "util/report.h"
 
 /* Areas of one face in two tables may differ by so much (a share): nine digits, and what a face
@@ -370,8 +370,7 @@ static int compare_tables(struct comparison *c)
                        "its noise alone looks like %.2g %% of error: it cannot tell much of "
                        "%.2g %%; make it with a finer --accuracy",
                        100 * noise, 100 * error);
-    int aside = o->json && strcmp(o->json, "-") == 0; /* nothing but JSON goes there then */
-    if (!o->quiet && !aside)
+    if (!o->quiet && !path_is_stdout(o->json)) /* nothing but JSON goes there then */
         print_text(c);
     return o->json && json_file_write(o->json, comparison_json(c)) < 0;
 }

@@ -15,6 +15,7 @@
 #include "geometry.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
+#include "util/beside.h"
 #include "util/device.h"
 #include "util/progress.h"
 #include "util/report.h"
@@ -259,7 +260,7 @@ static int tell(const struct subject *s)
     const struct options *o = s->options;
     if (o->json && json_file_write(o->json, subject_json(s)) < 0)
         return 1;
-    if (o->quiet || (o->json && strcmp(o->json, "-") == 0))
+    if (o->quiet || path_is_stdout(o->json))
         return 0;
     print_subject(s);
     if (o->step)

@@ -19,6 +19,7 @@
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/machines.h"
@@ -375,7 +376,7 @@ static int finish(struct run *r)
         failed = save(r) < 0;
     else
         (void)unlink(r->state);
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+    if (!o->quiet && !path_is_stdout(o->json))
         print_summary(r);
     if (!o->quiet && differ(r))
         report_warning(o->out, 0,
@@ -405,12 +406,10 @@ static int run(struct run *r)
 int command_reference(const struct options *o, const struct open_scene *scene)
 {
     struct run r = {.options = o, .scene = scene};
-    size_t length = strlen(o->out) + sizeof ".state";
-    r.state = malloc(length);
-    if (!r.state)
-        return report_error(o->out, 0, "out of memory") ? 1 : 0;
-    snprintf(r.state, length, "%s.state", o->out);
     int status = 1;
+    r.state = path_and(o->out, REFERENCE_STATE);
+    if (!r.state)
+        return -report_error(o->out, 0, "out of memory");
     progress_start(&r.progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, show_progress, &r);
     stop_signal_watch();

@@ -12,6 +12,7 @@
 #include "scene/read_numbers.h"
 #include "util/array.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/fold.h"
@@ -223,7 +224,7 @@ int sensor_rows(const struct options *o, const struct open_scene *scene)
     double start = seconds();
     int status = machines_agree(read_sensors(&s, o->sensor) < 0) ? -1 : write_rows(o, scene, &s);
     double time = seconds() - start;
-    if (status == 0 && !o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+    if (status == 0 && !o->quiet && !path_is_stdout(o->json))
         print(scene, &s, time);
     if (status == 0 && o->json && machines_number() == 0)
         status = json_file_write(o->json, report_json(o, scene, &s, time));

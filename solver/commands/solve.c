@@ -1,7 +1,6 @@
 /* solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
-#include <string.h>
 #include "commands/accuracy.h"
 #include "commands/asked_oracle.h"
 #include "commands/commands.h"
@@ -13,10 +12,11 @@
 #include "output/json_file.h"
 #include "output/statistics_file.h"
 #include "output/trace_file.h"
-#include "util/progress.h"
+#include "util/beside.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/machines.h"
+#include "util/progress.h"
 #include "util/report.h"
 
 /* Both pictures, of the error and of the light, through the same camera. */
@@ -97,8 +97,7 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
                                     rank_count < MACHINES_MOST ? rank_count : MACHINES_MOST};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)
-        && !(o->trace && strcmp(o->trace, "-") == 0))
+    if (!o->quiet && !path_is_stdout(o->json) && !path_is_stdout(o->trace))
         summary_print(&summary);
     return status;
 }

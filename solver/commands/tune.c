@@ -19,6 +19,7 @@
 #include "commands/tune_report.h"
 #include "output/json_file.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/graph_defaults.h"
@@ -111,12 +112,6 @@ static int open_scenes(struct work *w)
     return 0;
 }
 
-/* Is standard output what --json goes to? */
-static int to_output(const struct work *w)
-{
-    return w->options->json && strcmp(w->options->json, "-") == 0;
-}
-
 /* To all scenes, and without each. */
 static int fits(const struct tuner *t)
 {
@@ -135,7 +130,7 @@ static double deadline(const struct work *w, int count)
 static void tell(struct work *w, const struct tune_fit *f)
 {
     struct tuner *t = &w->tuner;
-    if (w->options->quiet || to_output(w) || seconds() - w->start < FORETELL)
+    if (w->options->quiet || path_is_stdout(w->options->json) || seconds() - w->start < FORETELL)
         return;
     progress_end(&t->progress);
     printf("fit %d of %d: %d places, best %.3g of the price of the defaults, %.0f s so far\n",
@@ -184,7 +179,7 @@ static int finish(struct work *w)
     const struct options *o = w->options;
     w->outcome.seconds = seconds() - w->start;
     progress_end(&w->tuner.progress);
-    if (!o->quiet && !to_output(w))
+    if (!o->quiet && !path_is_stdout(w->options->json))
         tune_print(&w->outcome);
     if (o->out && write_graph(w) < 0)
         return 1;

@@ -9,8 +9,8 @@
 #include "commands/tune_scene.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "util/beside.h"
 #include "util/device.h"
 #include "util/report.h"
 
@@ -26,10 +26,8 @@ static const double UNCERTAIN = 0.2;
 int tune_scene_open(struct tune_scene *t, const char *path, const struct scene_options *options,
                     int threads)
 {
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
-    *t = (struct tune_scene){.name = name};
-    t->name_length = (int)(dot && dot != name ? (size_t)(dot - name) : strlen(name));
+    const char *name = path_name(path);
+    *t = (struct tune_scene){.name = name, .name_length = (int)path_stem(name)};
     return open_scene(&t->scene, path, options, threads);
 }
 

@@ -4,7 +4,6 @@
  * face with two sides, or cut into parts, is one row, a mean over its parts.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
-#include <string.h>
 #include "commands/commands.h"
 #include "commands/factor_state.h"
 #include "commands/product_columns.h"
@@ -14,6 +13,7 @@
 #include "output/factor_names.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
+#include "util/beside.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/machines.h"
@@ -138,7 +138,7 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     double write_seconds = seconds() - start;
     if (machines_number() > 0)
         return 0;
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)) {
+    if (!o->quiet && !path_is_stdout(o->json)) {
         print(o, scene, rows, &r, write_seconds);
         ranks_print(ranks, rank_count);
     }

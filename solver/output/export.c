@@ -7,14 +7,14 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
-#include "util/atomic_file.h"
 #include "output/export_assimp.h"
 #include "output/export_xdmf.h"
 #include "output/exposure.h"
 #include "output/far_away.h"
 #include "output/leaf_mesh.h"
+#include "util/atomic_file.h"
+#include "util/ends_with.h"
 #include "util/report.h"
 
 enum export_format export_format(const char *path)
@@ -26,9 +26,8 @@ enum export_format export_format(const char *path)
         {".ply", EXPORT_PLY}, {".gltf", EXPORT_GLTF}, {".glb", EXPORT_GLB},
         {".obj", EXPORT_OBJ}, {".xdmf", EXPORT_XDMF},
     };
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    for (size_t i = 0; dot && i < sizeof known / sizeof *known; i++)
-        if (strcasecmp(dot, known[i].extension) == 0)
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (ends_with_any_case(path, known[i].extension))
             return known[i].format;
     return EXPORT_UNKNOWN;
 }

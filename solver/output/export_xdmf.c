@@ -147,8 +147,7 @@ int export_xdmf(const char *path, const struct solution *solution, const struct 
     if (!beside || make_room(&x) < 0) {
         report_error(path, 0, "out of memory for the mesh; use a coarser solution");
     } else if (atomic_open(&text, path) == 0) {
-        const char *slash = strrchr(beside, '/');
-        x.beside = slash ? slash + 1 : beside;
+        x.beside = path_name(beside);
         x.text = text.stream;
         x.file = hdf5_create(beside, 0);
         if (x.file && put_all(&x, error) < 0)

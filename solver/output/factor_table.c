@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "util/beside.h"
 #include "util/fold.h"
 
 #define NONE UINT32_MAX /* a part without a face */
@@ -101,9 +102,8 @@ static int open_parts(struct factor_table *t, const struct surfaces *s,
 /* NULL when out of memory. */
 static char *title_of(const char *path)
 {
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
-    char *title = strndup(name, dot && dot > name ? (size_t)(dot - name) : strlen(name));
+    const char *name = path_name(path);
+    char *title = strndup(name, path_stem(name));
     if (title)
         to_one_line(title);
     return title;

@@ -1,9 +1,12 @@
 /* json_file.c - see json_file.h.
  * SPDX-License-Identifier: MIT */
+#include "output/json_file.h"
+
 #include <errno.h>
 #include <string.h>
+
 #include "util/atomic_file.h"
-#include "output/json_file.h"
+#include "util/beside.h"
 #include "util/report.h"
 
 static int dump(json_t *value, FILE *stream)
@@ -19,7 +22,7 @@ int json_file_write(const char *path, json_t *value)
     if (!value)
         return report_error(path, 0, "out of memory");
     int result;
-    if (strcmp(path, "-") == 0) {
+    if (path_is_stdout(path)) {
         const int dumped = dump(value, stdout), cause = stream_flush(stdout);
         result = dumped < 0 || cause
                      ? report_error("standard output", 0, "cannot write: %s; write elsewhere",

@@ -1,15 +1,17 @@
 /* statistics_file.c - see statistics_file.h. Nodes stand in the order of the graph, answers in that
  * of their tool.
  * SPDX-License-Identifier: MIT */
+#include "output/statistics_file.h"
+
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-#include "util/atomic_file.h"
-#include "util/ends_with.h"
+
 #include "output/json_file.h"
-#include "util/report.h"
-#include "output/statistics_file.h"
 #include "output/statistics_json.h"
+#include "util/atomic_file.h"
+#include "util/beside.h"
+#include "util/ends_with.h"
+#include "util/report.h"
 
 /* Bin 0 of a histogram holds what is below twice this power of 2. */
 enum { LOWEST = -64 };
@@ -200,7 +202,7 @@ int statistics_write(const char *path, const char *scene, RadOracle oracle)
     struct RadStatistics s;
     if (radGetOracleStatistics(oracle, &s) < 0)
         return report_error(path, 0, "out of memory for the statistics");
-    if (strcmp(path, "-") == 0) {
+    if (path_is_stdout(path)) {
         print_text(stdout, report.name, &s);
         return 0;
     }

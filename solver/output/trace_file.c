@@ -14,6 +14,7 @@
 #include "geometry.h"
 #include "util/array.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/decisions.h"
 #include "util/ends_with.h"
 #include "util/filter.h"
@@ -272,7 +273,7 @@ int trace_file_open(struct trace_file **trace, const char *path, const char *whe
         release(t);
         return 2;
     }
-    if (strcmp(path, "-") == 0) {
+    if (path_is_stdout(path)) {
         t->out = stdout;
     } else if (atomic_open(&t->file, path) < 0) {
         release(t);

@@ -5,9 +5,7 @@
  * SPDX-License-Identifier: MIT */
 #include "scene/other_formats.h"
 
-#include <string.h>
-#include <strings.h>
-
+#include "util/ends_with.h"
 #include "util/report.h"
 
 static const char PARTS[] = "it names other files, of pieces or blocks; open it in ParaView, Merge "
@@ -30,9 +28,8 @@ int other_formats_refuse(const char *path)
         {".cgns", BY_GMSH}, {".step", SHAPE}, {".stp", SHAPE},   {".igs", SHAPE},
         {".iges", SHAPE},   {".brep", SHAPE}, {".geo", SHAPE},
     };
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; i < sizeof formats / sizeof *formats && dot; i++)
-        if (strcasecmp(dot, formats[i].ending) == 0)
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (ends_with_any_case(path, formats[i].ending))
             return report_error(path, 0, "%s", formats[i].advice);
     return 0;
 }

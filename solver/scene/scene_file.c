@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #include "scene/gltf_materials.h"
@@ -99,15 +98,6 @@ int scene_file_add_material(struct scene_file *f, const char *name,
  * hundredth as long as the scene is known to a thousandth */
 static const double ROUNDING_TOLD = 1e-5;
 
-static int has_extension(const char *path, const char *const *extensions)
-{
-    const char *dot = strrchr(path, '.');
-    for (; dot && *extensions; extensions++)
-        if (strcasecmp(dot, *extensions) == 0)
-            return 1;
-    return 0;
-}
-
 typedef int read_shape_fn(struct scene_file *file, const char *path, char *text, size_t size,
                           int quiet);
 
@@ -129,7 +119,7 @@ static const struct shape_format *shape_format(const char *path)
         {".vs3", read_vs3, EMITTANCES},
     };
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-        if (has_extension(path, (const char *const[]){formats[i].ending, NULL}))
+        if (ends_with_any_case(path, formats[i].ending))
             return &formats[i];
     return NULL;
 }
@@ -230,7 +220,7 @@ int scene_file_check_rounding(const struct scene_file *f, const char *path,
 
 int scene_file_read(struct scene_file *f, const char *path, const struct scene_options *options)
 {
-    static const char *const obj[] = {".obj", NULL}, *const gltf[] = {".gltf", ".glb", NULL};
+    const int gltf = ends_with_any_case(path, ".gltf") || ends_with_any_case(path, ".glb");
     const struct scene_options none = {0};
     options = options ? options : &none;
     struct stat status;
@@ -243,12 +233,12 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
         return report_error(path, 0,
                             "cannot read: this is a pipe or a device; write the scene to a file");
     const struct shape_format *shape = shape_format(path);
-    if (other_formats_refuse(path) || (has_extension(path, gltf) && gltf_check_extensions(path)))
+    if (other_formats_refuse(path) || (gltf && gltf_check_extensions(path)))
         return -1;
-    int result = shape                      ? read_shape(f, path, shape, options->quiet)
-                 : has_extension(path, obj) ? read_obj(f, path, options->quiet)
-                                            : read_assimp(f, path);
-    if (!result && has_extension(path, gltf))
+    int result = shape                              ? read_shape(f, path, shape, options->quiet)
+                 : ends_with_any_case(path, ".obj") ? read_obj(f, path, options->quiet)
+                                                    : read_assimp(f, path);
+    if (!result && gltf)
         result = gltf_materials(f, path, options->quiet);
     if (!result) {
         for (uint32_t i = 0; i < f->material_count; i++)

@@ -14,14 +14,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include "util/atomic_file.h"
+
 #include "output/chart.h"
-#include "util/clock.h"
-#include "study/study.h"
-#include "util/open_oracle.h"
-#include "util/solved.h"
 #include "study/faces_reference.h"
+#include "study/study.h"
+#include "util/atomic_file.h"
+#include "util/beside.h"
+#include "util/clock.h"
+#include "util/ends_with.h"
+#include "util/open_oracle.h"
 #include "util/progress.h"
+#include "util/solved.h"
 
 enum { STRATEGIES_MAX = 16 };
 
@@ -189,9 +192,8 @@ static void print_csv(FILE *out, const struct table *t)
 static void print_markdown(FILE *out, const struct table *t)
 {
     const struct options *o = t->options;
-    const char *slash = strrchr(o->scene, '/');
     fprintf(out, "`radiosity study clustering %s`, oracle `%s`, %d threads; error of B %s\n\n",
-            slash ? slash + 1 : o->scene, o->oracle, o->threads,
+            path_name(o->scene), o->oracle, o->threads,
             o->reference ? "per face against a reference, relative L1 by area"
                          : "not known: no reference was given");
     fputs("| strategy | clusters | depth | crossed | build, s | cpu, s | clock, s | links | of "
@@ -216,11 +218,10 @@ static void print_markdown(FILE *out, const struct table *t)
 
 static int write_table(const char *path, const struct table *t)
 {
-    const char *dot = strrchr(path, '.');
     struct atomic_file file;
     if (atomic_open(&file, path))
         return -1;
-    if (dot && strcmp(dot, ".md") == 0)
+    if (ends_with(path, ".md"))
         print_markdown(file.stream, t);
     else
         print_csv(file.stream, t);

@@ -16,6 +16,7 @@
 #include "study/factor_kinds.h"
 #include "study/study.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/ends_with.h"
 #include "util/open_oracle.h"
 
@@ -149,10 +150,9 @@ static void print_csv(FILE *out, const struct table *t)
 
 static void print_markdown(FILE *out, const struct table *t)
 {
-    const char *slash = strrchr(t->options->scene, '/');
     char name[16];
     fputs("`radiosity study form-factors`: ", out);
-    print_heading(out, t, slash ? slash + 1 : t->options->scene);
+    print_heading(out, t, path_name(t->options->scene));
     fputs("\n\n| kind | ns each | error, % | signed, % | worst, F | reflected, % | capped, % | "
           "looks at "
           "|\n|---|---|---|---|---|---|---|---|\n",

@@ -10,10 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "util/atomic_file.h"
-#include "study/study.h"
-#include "util/report.h"
+
 #include "study/stability.h"
+#include "study/study.h"
+#include "util/atomic_file.h"
+#include "util/ends_with.h"
+#include "util/report.h"
 
 enum format { PLAIN, MARKDOWN, CSV };
 enum { TEXT = 64 }; /* a cell's number */
@@ -305,10 +307,7 @@ static int unexpected(const struct results *results, int *cells, int *failing)
 
 static enum format format_of(const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    return dot && strcmp(dot, ".md") == 0    ? MARKDOWN
-           : dot && strcmp(dot, ".csv") == 0 ? CSV
-                                             : PLAIN;
+    return ends_with(path, ".md") ? MARKDOWN : ends_with(path, ".csv") ? CSV : PLAIN;
 }
 
 static int find(const char *name)
