@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "output/graph_expression.h"
+#include "output/json_values.h"
 #include "util/array.h"
 #include "util/report.h"
 
@@ -47,12 +48,6 @@ static const char *say(struct drawing *p, const char *format, ...)
     return text ? text : "";
 }
 
-static const char *text_of(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
 static double number_of(const json_t *object, const char *key)
 {
     return json_number_value(json_object_get(object, key));
@@ -63,7 +58,11 @@ static const json_t *find(const json_t *list, const char *key, const char *name)
 {
     size_t i;
     json_t *item;
-    json_array_foreach(list, i, item) if (strcmp(text_of(item, key), name) == 0) return item;
+    json_array_foreach(list, i, item)
+    {
+        if (strcmp(json_word(item, key), name) == 0)
+            return item;
+    }
     return NULL;
 }
 
@@ -116,12 +115,12 @@ static void read_branches(struct drawing *p, const json_t *branches)
     for (size_t i = 0; i < p->branch_count; i++) {
         const json_t *from = json_array_get(branches, i);
         struct drawing_branch *b = &p->branches[i];
-        const char *outer = text_of(from, "outer");
-        b->name = text_of(from, "name");
+        const char *outer = json_word(from, "outer");
+        b->name = json_word(from, "name");
         b->outer = find_branch(p, outer);
-        b->label = say(p, "%s = %s", short_name(b->name, outer), text_of(from, "graph"));
-        b->title =
-            say(p, "%s: the branch %s\n%s", b->name, text_of(from, "graph"), text_of(from, "doc"));
+        b->label = say(p, "%s = %s", short_name(b->name, outer), json_word(from, "graph"));
+        b->title = say(p, "%s: the branch %s\n%s", b->name, json_word(from, "graph"),
+                       json_word(from, "doc"));
         b->label_width = drawing_text_width(b->label, DRAWING_SMALL);
     }
 }
@@ -153,7 +152,7 @@ static void read_arguments(struct drawing *p, struct drawing_node *n, const json
     json_array_foreach(json_object_get(node, "arguments"), i, argument)
     {
         char value[512];
-        const char *name = text_of(argument, "name");
+        const char *name = json_word(argument, "name");
         graph_expression_text(json_object_get(argument, "value"), value, sizeof value);
         int same = strcmp(name, value) == 0;
         const char *line = same ? say(p, "%s", name) : say(p, "%s = %s", name, value);
@@ -185,23 +184,25 @@ static void read_counted(struct drawing *p, struct drawing_node *n, const json_t
         n->title = say(p, "%s\n%.0f rays", n->title, number_of(counted, "rays"));
     const char *term;
     json_t *count;
-    json_object_foreach(json_object_get(counted, "terms"), term, count) n->title =
-        say(p, "%s\n%s computed %.0f times", n->title, term, json_number_value(count));
+    json_object_foreach(json_object_get(counted, "terms"), term, count)
+    {
+        n->title = say(p, "%s\n%s computed %.0f times", n->title, term, json_number_value(count));
+    }
 }
 
 static void read_node(struct drawing *p, struct drawing_node *n, const json_t *node,
                       const json_t *tools, const json_t *statistics)
 {
-    const json_t *tool = find(tools, "name", text_of(node, "tool"));
-    *n = (struct drawing_node){.name = text_of(node, "name"), .heat = -1, .branch = -1};
-    n->branch = find_branch(p, text_of(node, "branch"));
-    n->class = strcmp(text_of(tool, "kind"), "command") == 0          ? "command"
+    const json_t *tool = find(tools, "name", json_word(node, "tool"));
+    *n = (struct drawing_node){.name = json_word(node, "name"), .heat = -1, .branch = -1};
+    n->branch = find_branch(p, json_word(node, "branch"));
+    n->class = strcmp(json_word(tool, "kind"), "command") == 0        ? "command"
                : json_array_size(json_object_get(tool, "writes")) > 0 ? "term"
                                                                       : "question";
     n->guards = json_is_true(json_object_get(tool, "guards"));
-    n->title = say(p, "%s = %s\n%s", n->name, text_of(tool, "name"), text_of(tool, "doc"));
-    add_line(n, short_name(n->name, text_of(node, "branch")));
-    add_line(n, text_of(tool, "name"));
+    n->title = say(p, "%s = %s\n%s", n->name, json_word(tool, "name"), json_word(tool, "doc"));
+    add_line(n, short_name(n->name, json_word(node, "branch")));
+    add_line(n, json_word(tool, "name"));
     read_arguments(p, n, node, tool);
     if (statistics)
         read_counted(p, n, find(json_object_get(statistics, "nodes"), "node", n->name));
@@ -218,9 +219,9 @@ static void read_node(struct drawing *p, struct drawing_node *n, const json_t *n
 static int find_target(struct drawing *p, struct drawing_arc *a, const json_t *arc,
                        const json_t *decisions)
 {
-    const char *decision = text_of(arc, "decision");
+    const char *decision = json_word(arc, "decision");
     a->leaf = -1;
-    a->node = find_node(p, text_of(arc, "node"));
+    a->node = find_node(p, json_word(arc, "node"));
     if (a->node >= 0)
         return 0;
     for (size_t i = 0; i < p->leaf_count; i++)
@@ -238,7 +239,7 @@ static int find_target(struct drawing *p, struct drawing_arc *a, const json_t *a
         .class = json_is_true(json_object_get(how, "subdivides"))     ? "subdivides"
                  : json_array_size(json_object_get(how, "reads")) > 0 ? "links"
                                                                       : "stops",
-        .title = say(p, "%s\n%s", decision, text_of(how, "doc")),
+        .title = say(p, "%s\n%s", decision, json_word(how, "doc")),
         .unused = 1,
         .width = drawing_text_width(decision, DRAWING_SMALL) + 12,
         .height = LINE * DRAWING_SMALL + 4};
@@ -273,7 +274,7 @@ static int read_arcs(struct drawing *p, int from, const json_t *node, const json
     json_t *arc;
     json_array_foreach(json_object_get(node, "arcs"), i, arc)
     {
-        const char *answer = text_of(arc, "answer"), *kind = text_of(arc, "kind");
+        const char *answer = json_word(arc, "answer"), *kind = json_word(arc, "kind");
         double count =
             number_of(find(json_object_get(counted, "answers"), "answer", answer), "count");
         struct drawing_arc a = {
@@ -296,7 +297,7 @@ static int read_arcs(struct drawing *p, int from, const json_t *node, const json
             *to = a;
         }
         const char *target =
-            *text_of(arc, "node") ? text_of(arc, "node") : text_of(arc, "decision");
+            *json_word(arc, "node") ? json_word(arc, "node") : json_word(arc, "decision");
         to->title = say(p, "%s%s%s: %s (%s) leads to %s", to->title, *to->title ? "\n" : "",
                         n->name, answer, a.kind, target);
         if (counted) {
@@ -320,31 +321,30 @@ static int read_arcs(struct drawing *p, int from, const json_t *node, const json
 /* A file of statistics may be of another graph, or of another version of it. */
 static int check_same(const struct drawing *p, const json_t *nodes, const json_t *statistics)
 {
-    const char *of = text_of(statistics, "oracle");
+    const char *of = json_word(statistics, "oracle");
     size_t i, k;
     json_t *node, *arc;
     if (strcmp(of, p->oracle) != 0)
-        return report_error("--statistics", 0, "they are of the oracle %s, not of %s", of,
-                            p->oracle);
+        return report_error("--statistics", 0, "they are of the oracle %s, not of %s; count again",
+                            of, p->oracle);
     json_array_foreach(nodes, i, node)
     {
-        const char *name = text_of(node, "name");
+        const char *name = json_word(node, "name");
         const json_t *counted = find(json_object_get(statistics, "nodes"), "node", name);
-        if (!counted || strcmp(text_of(counted, "tool"), text_of(node, "tool")) != 0)
+        if (!counted || strcmp(json_word(counted, "tool"), json_word(node, "tool")) != 0)
             return report_error("--statistics", 0,
                                 "they know no node %s with the tool %s: the graph has changed "
                                 "since; count again",
-                                name, text_of(node, "tool"));
-        json_array_foreach(
-            json_object_get(node, "arcs"), k,
-            arc) if (!find(json_object_get(counted, "answers"), "answer",
-                           text_of(
-                               arc,
-                               "answer"))) return report_error("--statistics", 0,
-                                                               "they know no answer %s of the node "
-                                                               "%s: the graph has changed since; "
-                                                               "count again",
-                                                               text_of(arc, "answer"), name);
+                                name, json_word(node, "tool"));
+        json_array_foreach(json_object_get(node, "arcs"), k, arc)
+        {
+            const char *answer = json_word(arc, "answer");
+            if (!find(json_object_get(counted, "answers"), "answer", answer))
+                return report_error("--statistics", 0,
+                                    "they know no answer %s of the node %s: the graph has changed "
+                                    "since; count again",
+                                    answer, name);
+        }
     }
     return 0;
 }
@@ -356,7 +356,7 @@ int drawing_open(struct drawing *p, const json_t *graph, const char *name, const
                  *nodes = json_object_get(oracle, "nodes"),
                  *decisions = json_object_get(catalog, "decisions"),
                  *branches = json_object_get(oracle, "branches");
-    *p = (struct drawing){.oracle = text_of(oracle, "name"), .doc = text_of(oracle, "doc")};
+    *p = (struct drawing){.oracle = json_word(oracle, "name"), .doc = json_word(oracle, "doc")};
     if (statistics && check_same(p, nodes, statistics) < 0)
         return -1;
     p->branches = calloc(json_array_size(branches) + 1, sizeof *p->branches);
@@ -365,7 +365,7 @@ int drawing_open(struct drawing *p, const json_t *graph, const char *name, const
         return report_error(name, 0, "out of memory for its drawing");
     p->branch_count = json_array_size(branches);
     for (size_t i = 0; i < p->branch_count; i++)
-        p->branches[i].name = text_of(json_array_get(branches, i), "name");
+        p->branches[i].name = json_word(json_array_get(branches, i), "name");
     read_branches(p, branches);
     for (size_t i = 0; i < json_array_size(nodes); i++, p->node_count++)
         read_node(p, &p->nodes[i], json_array_get(nodes, i), json_object_get(catalog, "tools"),
@@ -376,7 +376,7 @@ int drawing_open(struct drawing *p, const json_t *graph, const char *name, const
         p->summary = say(p,
                          "%s: %.0f discussions, %.0f rays, %.3g s in the nodes (estimated: one "
                          "discussion of %.0f was timed)",
-                         text_of(statistics, "scene"), number_of(statistics, "discussions"),
+                         json_word(statistics, "scene"), number_of(statistics, "discussions"),
                          number_of(statistics, "rays"), number_of(statistics, "seconds"),
                          number_of(statistics, "timed_every"));
     return p->failed ? report_error(name, 0, "out of memory for its drawing") : 0;

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "output/graph_drawing.h"
+#include "output/json_values.h"
 #include "util/report.h"
 #include "util/run_between.h"
 
@@ -100,12 +101,6 @@ static json_t *ask_dot(const struct drawing *p)
 
 /* ---- what it answers */
 
-static const char *word_of(const json_t *object, const char *key)
-{
-    const char *word = json_string_value(json_object_get(object, key));
-    return word ? word : "";
-}
-
 /* "a,b,c,d" into count numbers. Returns 0, or -1. */
 static int read_numbers(const char *text, double *numbers, int count)
 {
@@ -146,8 +141,8 @@ static int read_curve(struct drawing_arc *a, const char *text, double top)
 static int read_box(struct drawing_branch *b, const json_t *object, double top)
 {
     double box[4], label[2];
-    if (read_numbers(word_of(object, "bb"), box, 4) < 0
-        || read_numbers(word_of(object, "lp"), label, 2) < 0)
+    if (read_numbers(json_word(object, "bb"), box, 4) < 0
+        || read_numbers(json_word(object, "lp"), label, 2) < 0)
         return -1;
     b->left = box[0];
     b->right = box[2];
@@ -161,12 +156,12 @@ static int read_box(struct drawing_branch *b, const json_t *object, double top)
 /* A node, a leaf or a branch. Returns 0, or -1. */
 static int read_object(struct drawing *p, const json_t *object)
 {
-    const char *name = word_of(object, "name");
+    const char *name = json_word(object, "name");
     double at[2];
     unsigned i;
     if (sscanf(name, "cluster_%u", &i) == 1 && i < p->branch_count)
         return read_box(&p->branches[i], object, p->height);
-    if (read_numbers(word_of(object, "pos"), at, 2) < 0)
+    if (read_numbers(json_word(object, "pos"), at, 2) < 0)
         return -1;
     at[1] = p->height - at[1];
     if (sscanf(name, "n%u", &i) == 1 && i < p->node_count) {
@@ -183,9 +178,9 @@ static int read_arc(struct drawing *p, const json_t *edge)
 {
     double at[2];
     unsigned i;
-    if (sscanf(word_of(edge, "id"), "e%u", &i) != 1 || i >= p->arc_count
-        || read_curve(&p->arcs[i], word_of(edge, "pos"), p->height) < 0
-        || read_numbers(word_of(edge, "lp"), at, 2) < 0)
+    if (sscanf(json_word(edge, "id"), "e%u", &i) != 1 || i >= p->arc_count
+        || read_curve(&p->arcs[i], json_word(edge, "pos"), p->height) < 0
+        || read_numbers(json_word(edge, "lp"), at, 2) < 0)
         return -1;
     p->arcs[i].x = at[0];
     p->arcs[i].y = p->height - at[1];
@@ -199,12 +194,17 @@ int drawing_place(struct drawing *p)
         return -1;
     double box[4];
     size_t i;
-    int failed = read_numbers(word_of(placed, "bb"), box, 4) < 0;
+    int failed = read_numbers(json_word(placed, "bb"), box, 4) < 0;
     p->width = failed ? 0 : box[2];
     p->height = failed ? 0 : box[3];
-    json_array_foreach(json_object_get(placed, "objects"), i, item) failed |=
-        read_object(p, item) < 0;
-    json_array_foreach(json_object_get(placed, "edges"), i, item) failed |= read_arc(p, item) < 0;
+    json_array_foreach(json_object_get(placed, "objects"), i, item)
+    {
+        failed |= read_object(p, item) < 0;
+    }
+    json_array_foreach(json_object_get(placed, "edges"), i, item)
+    {
+        failed |= read_arc(p, item) < 0;
+    }
     for (i = 0; i < p->arc_count; i++)
         failed |= p->arcs[i].point_count == 0;
     json_decref(placed);

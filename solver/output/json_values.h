@@ -10,6 +10,9 @@
 /* JSON has no INFINITY and no NAN: they are null. */
 json_t *json_finite(double value);
 
+/* An object's member, which is a text; "" where there is none. The object's. */
+const char *json_word(const json_t *object, const char *key);
+
 /* A name; of one that is no UTF-8, as files' names may be, what is ASCII, and ? for the rest. */
 json_t *json_text(const char *text);
 

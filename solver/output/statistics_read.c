@@ -40,10 +40,13 @@ static int check_answers(const char *path, const char *node, const json_t *answe
     json_t *answer;
     if (!json_is_array(answers))
         return refuse(path, node, "answers", "a list");
-    json_array_foreach(answers, i,
-                       answer) if (check_text(path, node, answer, "answer") < 0
-                                   || check_text(path, node, answer, "target") < 0
-                                   || check_number(path, node, answer, "count") < 0) return -1;
+    json_array_foreach(answers, i, answer)
+    {
+        if (check_text(path, node, answer, "answer") < 0
+            || check_text(path, node, answer, "target") < 0
+            || check_number(path, node, answer, "count") < 0)
+            return -1;
+    }
     return 0;
 }
 
@@ -70,9 +73,11 @@ static int check_nodes(const char *path, const json_t *nodes)
         const char *term;
         if (!json_is_object(json_object_get(node, "terms")))
             return refuse(path, where, "terms", "an object");
-        json_object_foreach(json_object_get(node, "terms"), term,
-                            count) if (!json_is_integer(count)) return refuse(path, where, term,
-                                                                              "a whole number");
+        json_object_foreach(json_object_get(node, "terms"), term, count)
+        {
+            if (!json_is_integer(count))
+                return refuse(path, where, term, "a whole number");
+        }
         if (check_answers(path, where, json_object_get(node, "answers")) < 0)
             return -1;
     }

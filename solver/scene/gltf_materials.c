@@ -139,13 +139,17 @@ int gltf_check_extensions(const char *path)
     size_t i;
     if (!root) /* the library says what is wrong with it */
         return 0;
-    json_array_foreach(json_object_get(root, "extensionsRequired"), i,
-                       name) if (json_is_string(name) && !is_harmless(json_string_value(name)))
-        refused = json_string_value(name);
-    json_array_foreach(json_object_get(root, "extensionsUsed"), i,
-                       name) if (json_is_string(name)
-                                 && strcmp(json_string_value(name), "EXT_mesh_gpu_instancing") == 0)
-        refused = json_string_value(name); /* whoever does not know it sees one copy of many */
+    json_array_foreach(json_object_get(root, "extensionsRequired"), i, name)
+    {
+        if (json_is_string(name) && !is_harmless(json_string_value(name)))
+            refused = json_string_value(name);
+    }
+    json_array_foreach(json_object_get(root, "extensionsUsed"), i, name)
+    {
+        /* whoever does not know it sees one copy of many */
+        if (json_is_string(name) && strcmp(json_string_value(name), "EXT_mesh_gpu_instancing") == 0)
+            refused = json_string_value(name);
+    }
     if (refused)
         report_error(path, 0, "it needs %.64s, which is not read; export it without", refused);
     json_decref(root);
