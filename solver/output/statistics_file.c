@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: MIT */
 #include "output/statistics_file.h"
 
-#include <math.h>
 #include <stdio.h>
 
 #include "output/json_file.h"
@@ -12,9 +11,6 @@
 #include "util/beside.h"
 #include "util/ends_with.h"
 #include "util/report.h"
-
-/* Bin 0 of a histogram holds what is below twice this power of 2. */
-enum { LOWEST = -64 };
 
 static double percent(uint64_t part, uint64_t whole)
 {
@@ -41,9 +37,8 @@ static void print_records(FILE *out, const struct RadStatistics *s)
                     percent(s->zero[slot], all));
         for (int i = 0; i < RAD_BINS; i++)
             if (bins[i])
-                fprintf(out, "  %.4g to %-*.4g %12llu %6.2f %%\n", ldexp(1, LOWEST + i), 12,
-                        ldexp(1, LOWEST + i + 1), (unsigned long long)bins[i],
-                        percent(bins[i], all));
+                fprintf(out, "  %.4g to %-12.4g %12llu %6.2f %%\n", statistics_bin(i),
+                        statistics_bin(i + 1), (unsigned long long)bins[i], percent(bins[i], all));
     }
 }
 
@@ -84,9 +79,8 @@ static void print_paths(FILE *out, const struct RadStatistics *s)
             const struct RadNodeCount *n = &s->nodes[p->nodes[k]];
             const struct RadAnswerCount *a = &n->answers[p->answers[k]];
             fprintf(out, " %s: %s%s", n->name, a->name, k + 1 < p->length ? ";" : "");
-            if (k + 1 == p->length)
-                fprintf(out, " -> %s\n", a->target);
         }
+        fprintf(out, " -> %s\n", statistics_decision(s, p));
     }
 }
 
@@ -147,16 +141,14 @@ static void print_csv_node(FILE *out, int pass, const struct RadNodeCount *n, ui
 
 static void print_csv_path(FILE *out, const struct RadPath *p, const struct RadStatistics *s)
 {
-    const char *decision = "";
     fputs("path,0,", out);
     for (int k = 0; k < p->length; k++) {
         const struct RadNodeCount *n = &s->nodes[p->nodes[k]];
         fprintf(out, "%s%s:%s", k ? " " : "", n->name, n->answers[p->answers[k]].name);
-        decision = n->answers[p->answers[k]].target;
     }
-    fprintf(out, ",,,,%s,%llu,%.6g,%.9g,%.9g,\n", decision, (unsigned long long)p->count,
-            share_of((double)p->count, (double)s->nodes[0].calls), p->seconds,
-            share_of(p->seconds, (double)p->count));
+    fprintf(out, ",,,,%s,%llu,%.6g,%.9g,%.9g,\n", statistics_decision(s, p),
+            (unsigned long long)p->count, share_of((double)p->count, (double)s->nodes[0].calls),
+            p->seconds, share_of(p->seconds, (double)p->count));
 }
 
 static void print_csv(FILE *out, const struct RadStatistics *s)
@@ -178,7 +170,7 @@ static void print_csv(FILE *out, const struct RadStatistics *s)
             fprintf(out, "record,0,%d,record,0,,,%llu,,,,\n", i, (unsigned long long)s->zero[i]);
         for (int k = 0; k < RAD_BINS; k++)
             if (s->bins[i][k])
-                fprintf(out, "record,0,%d,record,from %.17g,,,%llu,,,,\n", i, ldexp(1, LOWEST + k),
+                fprintf(out, "record,0,%d,record,from %.17g,,,%llu,,,,\n", i, statistics_bin(k),
                         (unsigned long long)s->bins[i][k]);
     }
 }

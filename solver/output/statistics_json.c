@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: MIT */
 #include "output/statistics_json.h"
 
-#include <math.h>
 #include <stdio.h>
 
 #include "output/json_values.h"
@@ -83,17 +82,16 @@ static json_t *paths_json(const struct RadStatistics *s)
     for (int i = 0; i < s->path_count; i++) {
         const struct RadPath *p = &s->paths[i];
         json_t *steps = json_array();
-        const char *decision = "";
         for (int k = 0; k < p->length; k++) {
             const struct RadNodeCount *n = &s->nodes[p->nodes[k]];
-            decision = n->answers[p->answers[k]].target;
             json_array_append_new(steps, json_pack("{s:s, s:s}", "node", n->name, "answer",
                                                    n->answers[p->answers[k]].name));
         }
-        json_array_append_new(
-            paths, json_pack("{s:o, s:f, s:f, s:o, s:s, s:o}", "discussions", whole(p->count),
-                             "seconds", p->seconds, "seconds_share", share_of(p->seconds, all),
-                             "timed", whole(p->timed), "decision", decision, "steps", steps));
+        json_array_append_new(paths,
+                              json_pack("{s:o, s:f, s:f, s:o, s:s, s:o}", "discussions",
+                                        whole(p->count), "seconds", p->seconds, "seconds_share",
+                                        share_of(p->seconds, all), "timed", whole(p->timed),
+                                        "decision", statistics_decision(s, p), "steps", steps));
     }
     return json_pack("{s:o, s:o}", "distinct", whole(s->distinct_paths), "most_expensive", paths);
 }
@@ -134,9 +132,8 @@ static json_t *records_json(const struct RadStatistics *s)
         json_t *bins = json_array();
         for (int i = 0; i < RAD_BINS; i++)
             if (s->bins[slot][i])
-                json_array_append_new(bins,
-                                      json_pack("{s:f, s:o}", "from", ldexp(1, i - RAD_BINS / 2),
-                                                "count", whole(s->bins[slot][i])));
+                json_array_append_new(bins, json_pack("{s:f, s:o}", "from", statistics_bin(i),
+                                                      "count", whole(s->bins[slot][i])));
         if (s->zero[slot] || json_array_size(bins))
             json_array_append_new(all, json_pack("{s:i, s:o, s:o}", "slot", slot, "zero",
                                                  whole(s->zero[slot]), "bins", bins));

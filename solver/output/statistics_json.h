@@ -4,6 +4,7 @@
 #define STATISTICS_JSON_H
 
 #include <jansson.h>
+#include <math.h>
 #include "radiosity.h"
 
 #define STATISTICS_SCHEMA "radiosity-statistics/1"
@@ -15,6 +16,20 @@ json_t *statistics_json(const char *scene, RadOracle oracle, const struct RadSta
 static inline double share_of(double part, double whole)
 {
     return whole > 0 ? part / whole : 0;
+}
+
+/* Where bin i of a histogram begins: bins go by powers of two, half of them below 1. */
+static inline double statistics_bin(int i)
+{
+    return ldexp(1, i - RAD_BINS / 2);
+}
+
+/* What a path ends with. */
+static inline const char *statistics_decision(const struct RadStatistics *s,
+                                              const struct RadPath *p)
+{
+    const int last = p->length - 1;
+    return last < 0 ? "" : s->nodes[p->nodes[last]].answers[p->answers[last]].target;
 }
 
 /* Seconds, or rays, of all nodes together. */
