@@ -77,6 +77,9 @@ static inline void made_move(struct made_scene *s, double by)
             s->position[i][k] += by;
 }
 
+/* For the engine. Returns NULL after a message that names `where`. */
+RadScene made_commit(const struct made_scene *made, RadDevice device, const char *where);
+
 /* Polygon i as an element by itself, in no tree. */
 static inline struct element made_element(const struct made_scene *s, uint32_t i)
 {

@@ -62,26 +62,6 @@ double stability_factor(const struct stability_trial *trial, const struct elemen
     return sum / area;
 }
 
-/* The scene, committed. Returns NULL after a message. */
-static RadScene commit_scene(RadDevice device, const struct made_scene *made)
-{
-    const struct RadPolygons polygons = {.positions = made->position[0],
-                                         .position_count = made->corners,
-                                         .indices = made->index,
-                                         .sizes = made->size,
-                                         .materials = made->material,
-                                         .count = made->count,
-                                         .as_given = made->as_given};
-    RadScene scene = radNewScene(device);
-    if (!scene || radSetSceneMaterials(scene, made->materials, made->material_count) < 0
-        || radSetSceneSharedPolygons(scene, &polygons) < 0 || radCommitScene(scene) < 0) {
-        report_device(device, "study stability");
-        radReleaseScene(scene);
-        return NULL;
-    }
-    return scene;
-}
-
 /* Divide by 4^level what decides how far an oracle refines: as --accuracy does, and the shadows of
  * `viewfactors`. */
 static void refine_oracle(RadOracle oracle, int level)
@@ -108,7 +88,7 @@ static int make_solution(struct solved *s, const struct made_scene *made,
     while (how->settings[count])
         count++;
     RadDevice device = open_device(how->threads);
-    RadScene scene = device ? commit_scene(device, made) : NULL;
+    RadScene scene = device ? made_commit(made, device, "study stability") : NULL;
     RadOracle oracle = scene ? open_oracle(device, how->oracle, RAD_RELEASE_FLAT,
                                            (char *const *)how->settings, count)
                              : NULL;

@@ -65,13 +65,18 @@ static void print_heading(FILE *out, const struct table *t, const char *scene)
             k->doubt, k->kind[KIND_CONTOUR].tally[BINS].links);
 }
 
-static void print_bins(FILE *out, const struct table *t, const char *what,
-                       double (*value)(const struct factor_tally *), double unit)
+static void print_bin_names(FILE *out, const char *what)
 {
     char name[16];
     fprintf(out, "\n%-14s", what);
     for (int b = 0; b < BINS; b++)
         fprintf(out, " %9s", bin_name(b, name));
+}
+
+static void print_bins(FILE *out, const struct table *t, const char *what,
+                       double (*value)(const struct factor_tally *), double unit)
+{
+    print_bin_names(out, what);
     fputc('\n', out);
     for (int i = 0; i < KINDS; i++) {
         fprintf(out, "%-14s", t->kinds.kind[i].name);
@@ -102,12 +107,9 @@ static void print_table(FILE *out, const struct table *t)
             fprintf(out, "%12.2g", 100 * k->reflected);
         fprintf(out, " %9.2g  %s\n", 100 * k->capped, k->looks_at);
     }
-    fputs("\nby distance of the centres over the sum of the radii\n", out);
-    char name[16];
+    fputs("\nby distance of the centres over the sum of the radii", out);
     const struct factor_kind *any = &t->kinds.kind[0];
-    fprintf(out, "%-14s", "");
-    for (int b = 0; b < BINS; b++)
-        fprintf(out, " %9s", bin_name(b, name));
+    print_bin_names(out, "");
     fprintf(out, "\n%-14s", "links %");
     for (int b = 0; b < BINS; b++)
         fprintf(out, " %9.3g", 100 * share((double)any->tally[b].links, (double)t->kinds.links));

@@ -87,19 +87,7 @@ static RadScene commit(RadDevice device, const struct greedy_face *f, int count)
         made_quad(&made, made_material(&made, f[i].rho, f[i].exitance), f[i].corner[0],
                   f[i].corner[1], f[i].corner[2], f[i].a[0], f[i].a[1], f[i].a[2], f[i].b[0],
                   f[i].b[1], f[i].b[2]);
-    const struct RadPolygons polygons = {.positions = made.position[0],
-                                         .position_count = made.corners,
-                                         .indices = made.index,
-                                         .sizes = made.size,
-                                         .materials = made.material,
-                                         .count = made.count};
-    RadScene scene = radNewScene(device);
-    if (scene && radSetSceneMaterials(scene, made.materials, made.material_count) == 0
-        && radSetSceneSharedPolygons(scene, &polygons) == 0 && radCommitScene(scene) == 0)
-        return scene;
-    report_device(device, "study greedy");
-    radReleaseScene(scene);
-    return NULL;
+    return made_commit(&made, device, "study greedy");
 }
 
 /* ---- the oracle's links */
@@ -119,20 +107,6 @@ static void find_wrong(const struct greedy *g, const struct solution *s, double 
     }
 }
 
-static int scale_thresholds(RadOracle oracle, double factor)
-{
-    struct RadOracleReport report;
-    radGetOracleReport(oracle, &report);
-    for (int i = 0; i < report.parameter_count; i++) {
-        const struct oracle_parameter *p = &report.parameters[i];
-        double value = factor * radGetOracleParameter(oracle, p->name);
-        if (p->role == ROLE_LINK_THRESHOLD
-            && radSetOracleParameter(oracle, p->name, fmin(value, p->high)) < 0)
-            return -1;
-    }
-    return 0;
-}
-
 /* Returns 0, or -1 after a message. */
 static int measure(const struct options *o, const struct greedy *g, RadDevice device,
                    RadScene scene, int basis, double factor, struct row *row)
@@ -144,7 +118,7 @@ static int measure(const struct options *o, const struct greedy *g, RadDevice de
     int status = 0;
     RadOracle oracle =
         open_oracle(device, o->oracle, RAD_RELEASE_FLAT, o->settings, o->setting_count);
-    if (!oracle || scale_thresholds(oracle, factor) < 0
+    if (!oracle || radScaleOracle(oracle, factor) < 0
         || solved_open(&s, device, "study greedy", scene, oracle, &how) < 0) {
         radReleaseOracle(oracle);
         return -1;
