@@ -112,18 +112,12 @@ static int open_scenes(struct work *w)
     return 0;
 }
 
-/* To all scenes, and without each. */
-static int fits(const struct tuner *t)
-{
-    return t->scene_count > 1 ? t->scene_count + 1 : 1;
-}
-
 /* Where the share of the time ends that is for so many of the fits, of what is left when they
  * begin. */
 static double deadline(const struct work *w, int count)
 {
     double left = w->start + w->options->limit_seconds - w->begin;
-    return w->options->limit_seconds ? w->begin + fmax(0, left) * count / fits(&w->tuner) : 0;
+    return w->options->limit_seconds ? w->begin + fmax(0, left) * count / tune_fits(&w->tuner) : 0;
 }
 
 /* Said of each fit where they take long, also to a log. */
@@ -134,7 +128,7 @@ static void tell(struct work *w, const struct tune_fit *f)
         return;
     progress_end(&t->progress);
     printf("fit %d of %d: %d places, best %.3g of the price of the defaults, %.0f s so far\n",
-           f->left_out + 2, fits(t), f->found.evaluations, exp(f->found.value),
+           f->left_out + 2, tune_fits(t), f->found.evaluations, exp(f->found.value),
            seconds() - w->start);
     fflush(stdout);
 }
@@ -214,8 +208,7 @@ int command_tune(const struct options *o, const struct open_scene *scene)
                              .basis = o->basis,
                              .target = o->noise,
                              .power = o->power,
-                             .evaluations = o->evaluations,
-                             .limit = INFINITY};
+                             .evaluations = o->evaluations};
     w.outcome = (struct tune_outcome){.oracle = o->oracle, .tuner = &w.tuner};
     int status = w.device ? run(&w) : 1;
     tuner_close(&w.tuner);

@@ -29,7 +29,7 @@ static double distance(const struct tuner *t, const int *at)
 {
     double sum = 0;
     for (int i = 0; i < t->parameter_count; i++)
-        sum += at[i] * at[i] / 16.0;
+        sum += at[i] * at[i] / (double)(TUNE_QUARTERS * TUNE_QUARTERS);
     return sum;
 }
 

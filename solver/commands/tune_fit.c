@@ -33,15 +33,12 @@ static const double GUARD = 4;
  * of 24 solves, cornell, room and maze_8 by eight oracles, which it meets within 30 %. */
 static const double TUNE_PAIR = 40;
 
-/* The first step: a doubling. */
-enum { QUARTERS = 4 };
-
 double tune_value(const struct tune_parameter *p, int quarters)
 {
     char text[32];
     if (quarters == 0)
         return p->value;
-    snprintf(text, sizeof text, "%.1e", p->value * exp2((double)quarters / QUARTERS));
+    snprintf(text, sizeof text, "%.1e", p->value * exp2((double)quarters / TUNE_QUARTERS));
     return strtod(text, NULL);
 }
 
@@ -169,6 +166,11 @@ int tune_result(struct tuner *t, const int *at, int scene, struct tune_result *r
 
 /* ---- fitting */
 
+int tune_fits(const struct tuner *t)
+{
+    return t->scene_count > 1 ? t->scene_count + 1 : 1;
+}
+
 uint64_t tune_bit(int left_out)
 {
     return UINT64_C(1) << (left_out < 62 ? left_out + 1 : 63);
@@ -216,8 +218,8 @@ static int mean_price(void *user, const int *at, double *value)
             continue;
         snprintf(t->doing, sizeof t->doing,
                  "fit %d of %d, place %d, best %.3f of the defaults: %.*s", f->left_out + 2,
-                 t->scene_count > 1 ? t->scene_count + 1 : 1, f->looked, exp(f->best),
-                 t->scenes[s].name_length, t->scenes[s].name);
+                 tune_fits(t), f->looked, exp(f->best), t->scenes[s].name_length,
+                 t->scenes[s].name);
         double limit = GUARD * f->costs[s];
         int status = result_within(t, at, s, limit, &r);
         if (status) {
@@ -248,7 +250,7 @@ int tune_fit(struct tuner *t, int left_out, struct tune_fit *fit)
     for (int s = 0; s < t->scene_count; s++)
         f->costs[s] = INFINITY;
     struct pattern_search search = {.count = t->parameter_count,
-                                    .step = QUARTERS,
+                                    .step = TUNE_QUARTERS,
                                     .together = 1,
                                     .evaluations = t->evaluations,
                                     .value = mean_price,

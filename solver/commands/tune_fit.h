@@ -68,6 +68,12 @@ struct tune_fit {
     int at[PATTERN_NUMBERS]; /* what it takes: where the search ended, or nearer to the start */
 };
 
+/* Of a doubling; the first step of a search is a doubling, too. */
+enum { TUNE_QUARTERS = 4 };
+
+/* How many fits there are: to all scenes, and without each where there are several. */
+int tune_fits(const struct tuner *t);
+
 /* The bit of a fit; of more than 63 scenes the last ones share one. */
 uint64_t tune_bit(int left_out);
 

@@ -10,9 +10,9 @@
 #include "options/option_table.h"
 #include "util/report.h"
 
-/* A parameter is looked for up to so many quarters of doublings from its default where no range is
- * given: 64 times as much, or as little. */
-enum { FARTHEST = 24 };
+/* A parameter is looked for up to so many doublings from its default where no range is given: 64
+ * times as much, or as little. */
+enum { FARTHEST = 6 };
 
 /* Only what is a real number above 0 has a logarithm to step along; what its author fixed stays. */
 static int can_fit(const struct oracle_parameter *p)
@@ -45,8 +45,8 @@ static int add(struct tuner *t, const struct oracle_parameter *p, double low, do
     if (t->parameter_count == PATTERN_NUMBERS)
         return report_error("--param", 0, "more than %d parameters; fit some after the others",
                             (int)PATTERN_NUMBERS);
-    int first = (int)floor(4 * log2(fmax(low, 1e-300) / p->value)) - 1;
-    int last = (int)ceil(4 * log2(fmin(high, 1e300) / p->value)) + 1;
+    int first = (int)floor(TUNE_QUARTERS * log2(fmax(low, 1e-300) / p->value)) - 1;
+    int last = (int)ceil(TUNE_QUARTERS * log2(fmin(high, 1e300) / p->value)) + 1;
     while (first <= last && tune_value(to, first) < low)
         first++;
     while (first <= last && tune_value(to, last) > high)
@@ -60,6 +60,13 @@ static int add(struct tuner *t, const struct oracle_parameter *p, double low, do
     to->high = last;
     t->parameter_count++;
     return 0;
+}
+
+/* As far as it is looked for where no range is given. Returns 0, or -1 after a message. */
+static int add_unbounded(struct tuner *t, const struct oracle_parameter *p)
+{
+    const double times = exp2(FARTHEST);
+    return add(t, p, p->value / times, p->value * times);
 }
 
 /* "NAME" or "NAME=LOW:HIGH". Returns 0, or -1 after a message. */
@@ -81,14 +88,15 @@ static int add_wanted(struct tuner *t, const struct RadOracleReport *report, con
                             "%s is fixed by its author; take `fixed` away in a .dag file to fit it",
                             p->name);
     if (p->integer)
-        return report_error("--param", 0, "%s is a whole number, which is not fitted", p->name);
+        return report_error("--param", 0,
+                            "%s is a whole number, which is not fitted; try it by --set", p->name);
     if (!can_fit(p))
         return report_error("--param", 0,
                             "%s is %g, but it is looked for by factors; give it a default above 0 "
                             "in a .dag file",
                             p->name, p->value);
     if (!text[length])
-        return add(t, p, p->value * exp2(-FARTHEST / 4.0), p->value * exp2(FARTHEST / 4.0));
+        return add_unbounded(t, p);
     double low, high;
     return option_range(text + length + 1, &low, &high) < 0 ? -1 : add(t, p, low, high);
 }
@@ -103,8 +111,7 @@ int tune_parameters(struct tuner *t, const char *name, char *const *wanted, int 
             return -1;
     for (int i = 0; i < report.parameter_count && count == 0; i++) {
         const struct oracle_parameter *p = &report.parameters[i];
-        if (p->role == ROLE_LINK_THRESHOLD && can_fit(p)
-            && add(t, p, p->value * exp2(-FARTHEST / 4.0), p->value * exp2(FARTHEST / 4.0)) < 0)
+        if (p->role == ROLE_LINK_THRESHOLD && can_fit(p) && add_unbounded(t, p) < 0)
             return -1;
     }
     if (t->parameter_count)
