@@ -207,26 +207,6 @@ static const struct occasion *find_last(const struct subject *s, int by_points)
     return found;
 }
 
-/* Hold the discussion that never was. Returns 0, or -1 after a message. */
-static int discuss_now(struct subject *s)
-{
-    struct RadElements tree;
-    radGetElements(s->solution, &tree);
-    const struct discussion d = {.receiver = &tree.elements[s->element[0]],
-                                 .emitter = &tree.elements[s->element[1]],
-                                 .host = radGetHost(s->solution)};
-    struct RadExplanation x;
-    if (radExplain(s->solution, s->watch->oracle, &d, &x) < 0)
-        return report_device(s->device, "--pair");
-    s->made = occasion_make(&d, &x);
-    if (!s->made)
-        return report_error("--pair", 0, "out of memory");
-    s->made->receiver = s->element[0];
-    s->made->emitter = s->element[1];
-    s->occasion = s->made;
-    return 0;
-}
-
 /* Returns 0, or -1 after a message. */
 static int choose(struct subject *s, struct watch *w)
 {
@@ -245,7 +225,10 @@ static int choose(struct subject *s, struct watch *w)
                             "nothing was said of this pair in pass %d; without --pass the last "
                             "discussion is shown, and the passes of all",
                             s->options->pass);
-    if (!s->occasion && discuss_now(s) < 0)
+    if (!s->occasion) /* it never was */
+        s->occasion = s->made =
+            occasion_hold(s->device, s->solution, w->oracle, s->element, "--pair");
+    if (!s->occasion)
         return -1;
     s->element[0] = s->occasion->receiver;
     s->element[1] = s->occasion->emitter;

@@ -153,17 +153,9 @@ static int change_pair(struct steps *s, const char *argument)
     for (int i = 0; i < 2; i++)
         if (radFindElement(s->solution, name[i], &element[i]) < 0)
             return report_device(s->device, "pair");
-    struct RadElements tree;
-    radGetElements(s->solution, &tree);
-    const struct discussion d = {.receiver = &tree.elements[element[0]],
-                                 .emitter = &tree.elements[element[1]],
-                                 .host = radGetHost(s->solution)};
-    struct RadExplanation x;
-    if (radExplain(s->solution, s->oracle, &d, &x) < 0)
-        return report_device(s->device, "pair");
-    struct occasion *other = occasion_make(&d, &x);
+    struct occasion *other = occasion_hold(s->device, s->solution, s->oracle, element, "pair");
     if (!other)
-        return report_error("pair", 0, "out of memory");
+        return -1;
     occasion_free(s->other);
     s->other = other;
     s->discussion = &other->discussion;

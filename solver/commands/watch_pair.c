@@ -24,7 +24,9 @@ void occasion_free(struct occasion *o)
     free(o);
 }
 
-struct occasion *occasion_make(const struct discussion *before, const struct RadExplanation *x)
+/* Remember a discussion with what was made of it. NULL when out of memory. */
+static struct occasion *make_occasion(const struct discussion *before,
+                                      const struct RadExplanation *x)
 {
     struct occasion *o = calloc(1, sizeof *o);
     size_t size = 0;
@@ -56,6 +58,29 @@ struct occasion *occasion_make(const struct discussion *before, const struct Rad
         o->list = *before->blockers;
         o->discussion.blockers = &o->list;
     }
+    return o;
+}
+
+struct occasion *occasion_hold(RadDevice device, RadSolution solution, RadOracle oracle,
+                               const uint32_t element[2], const char *where)
+{
+    struct RadElements tree;
+    radGetElements(solution, &tree);
+    const struct discussion d = {.receiver = &tree.elements[element[0]],
+                                 .emitter = &tree.elements[element[1]],
+                                 .host = radGetHost(solution)};
+    struct RadExplanation x;
+    if (radExplain(solution, oracle, &d, &x) < 0) {
+        report_device(device, where);
+        return NULL;
+    }
+    struct occasion *o = make_occasion(&d, &x);
+    if (!o) {
+        report_error(where, 0, "out of memory");
+        return NULL;
+    }
+    o->receiver = element[0];
+    o->emitter = element[1];
     return o;
 }
 
@@ -145,7 +170,7 @@ static int note(void *user, const struct RadTraced *t)
     if (radExplain(w->solution, w->oracle, t->before, &x) < 0
         || array_reserve(&w->occasions, w->count + 1, &w->capacity, sizeof *w->occasions) < 0)
         return w->failed = 1;
-    struct occasion *o = occasion_make(t->before, &x);
+    struct occasion *o = make_occasion(t->before, &x);
     if (!o)
         return w->failed = 1;
     o->pass = t->pass;

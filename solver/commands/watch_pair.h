@@ -60,9 +60,11 @@ int watch_settle(struct watch *w);
  * the device. */
 int watch_element(struct watch *w, int end, uint32_t *element);
 
-/* Remember a discussion, which is of receiver and emitter, with what was made of it. Returns NULL
- * when out of memory, else what occasion_free frees. */
-struct occasion *occasion_make(const struct discussion *before, const struct RadExplanation *x);
+/* Hold a discussion of receiver and emitter as things stand now. Returns NULL after a message that
+ * names `where`. */
+struct occasion *occasion_hold(RadDevice device, RadSolution solution, RadOracle oracle,
+                               const uint32_t element[2], const char *where);
+
 void occasion_free(struct occasion *o);
 
 /* Both by name, "12/0,3". Returns 0, or -1: it is none. */
