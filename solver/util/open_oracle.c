@@ -56,6 +56,27 @@ static RadOracle refuse_graph(RadDevice device, const char *oracle)
     return NULL;
 }
 
+int set_oracle_parameter(RadDevice device, RadOracle oracle, const char *name, const char *text,
+                         const char *where, uint32_t line)
+{
+    const char *equals = line ? " = " : "=";
+    char *end;
+    const double value = decimal(text, &end);
+    if (!*text)
+        return report_error(where, line, "%s has no value; write %s%sNUMBER", name, name, equals);
+    if (end == text || *end || isnan(value))
+        return report_error(where, line, "'%s' is not a number; write %s%sNUMBER", text, name,
+                            equals);
+    if (isinf(value) && strpbrk(text, "0123456789"))
+        return report_error(where, line, "%s%s%s: too large to be a number here; inf is one", name,
+                            equals, text);
+    if (radSetOracleParameter(oracle, name, value) == 0)
+        return 0;
+    report_error(where, line, "%s", radGetDeviceErrorMessage(device));
+    (void)radGetDeviceError(device);
+    return -1;
+}
+
 /* Apply one text "NAME=VALUE". Returns 0, or -1 after a message. */
 static int apply_setting(RadDevice device, RadOracle oracle, const char *setting)
 {
@@ -66,15 +87,7 @@ static int apply_setting(RadDevice device, RadOracle oracle, const char *setting
         return report_error("--set", 0, "'%s' names no parameter; write PARAM=VALUE", setting);
     memcpy(name, setting, length);
     name[length] = 0;
-    char *end;
-    double value = decimal(equals + 1, &end);
-    if (!equals[1])
-        return report_error("--set", 0, "%s has no value; write %s=NUMBER", name, name);
-    if (end == equals + 1 || *end || isnan(value))
-        return report_error("--set", 0, "'%s' is not a number (in %s)", equals + 1, setting);
-    if (isinf(value) && strpbrk(equals + 1, "0123456789"))
-        return report_error("--set", 0, "%s: too large to be a number here; inf is one", setting);
-    return radSetOracleParameter(oracle, name, value) < 0 ? report_device(device, "--set") : 0;
+    return set_oracle_parameter(device, oracle, name, equals + 1, "--set", 0);
 }
 
 int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int count)

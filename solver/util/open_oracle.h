@@ -15,6 +15,11 @@ RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease rele
 RadOracle open_oracle_replaced(RadDevice device, const char *oracle, enum RadRelease release,
                                char *const *replacements, int count);
 
+/* Set a parameter to the number that a text says. `where`, `line`: what says so, for messages; line
+ * 0: an option. Returns 0, or -1 after a message. */
+int set_oracle_parameter(RadDevice device, RadOracle oracle, const char *name, const char *text,
+                         const char *where, uint32_t line);
+
 /* Apply texts "NAME=VALUE" to an oracle. Returns 0, or -1 after a message. */
 int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int count);
 

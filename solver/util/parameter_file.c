@@ -2,12 +2,11 @@
  * SPDX-License-Identifier: MIT */
 #include "util/parameter_file.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "util/decimal.h"
+#include "util/open_oracle.h"
 #include "util/report.h"
 #include "util/text_file.h"
 
@@ -80,22 +79,7 @@ static int set(struct parameter_file *f, const char *name, const char *text)
         return report_error(f->path, f->line, "%s is set twice, first in line %u; keep one of them",
                             name, (unsigned)f->lines[i]);
     f->lines[i] = f->line;
-    char *end;
-    double value = decimal(text, &end);
-    if (!*text)
-        return report_error(f->path, f->line, "%s has no value; write %s = NUMBER", name, name);
-    if (end == text || *end || isnan(value))
-        return report_error(f->path, f->line, "'%s' is not a number; write %s = NUMBER", text,
-                            name);
-    if (isinf(value) && strpbrk(text, "0123456789"))
-        return report_error(f->path, f->line, "%s: too large to be a number here; inf is one",
-                            text);
-    if (radSetOracleParameter(f->oracle, name, value) == 0)
-        return 0;
-    char message[512];
-    snprintf(message, sizeof message, "%s", radGetDeviceErrorMessage(f->device));
-    (void)radGetDeviceError(f->device);
-    return report_error(f->path, f->line, "%s", message);
+    return set_oracle_parameter(f->device, f->oracle, name, text, f->path, f->line);
 }
 
 /* "oracle NAME" */
@@ -135,7 +119,9 @@ static int read_line(struct parameter_file *f, char *text)
     if (!end)
         return report_error(f->path, f->line, "'%s' sets nothing; write NAME = VALUE", text);
     if (end >= sizeof name)
-        return report_error(f->path, f->line, "'%.*s' is too long for a name", (int)end, text);
+        return report_error(f->path, f->line,
+                            "'%.*s' is too long for a name; it has %d letters at the most",
+                            (int)end, text, NAME_SIZE - 1);
     memcpy(name, text, end);
     name[end] = 0;
     return set(f, name, equals + 1 + strspn(equals + 1, BLANKS));
@@ -152,7 +138,8 @@ int parameter_file_apply(const char *path, RadDevice device, RadOracle oracle, c
     f.lines = calloc((size_t)f.report.parameter_count + 1, sizeof *f.lines);
     int status = f.lines ? 0 : report_error(path, 0, "out of memory");
     if (status == 0 && strlen(text) != size)
-        status = report_error(path, 0, "not a text: it has a byte 0");
+        status =
+            report_error(path, 0, "not a text: it has a byte 0; give a file as a panel saves it");
     for (char *at = text + text_mark(text), *end = text + size; status == 0 && at < end;) {
         char *next = at + strcspn(at, "\n");
         *next = 0;

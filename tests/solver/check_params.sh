@@ -52,7 +52,7 @@ refused 1 "the first line says whose parameters these are" 'ora ff' --oracle ff
 refused 2 "limit has no value; write limit = NUMBER" 'oracle ff\nlimit =' --oracle ff
 refused 2 "'0.1 W' is not a number; write limit = NUMBER" 'oracle ff\nlimit = 0.1 W' --oracle ff
 refused 2 "'nan' is not a number" 'oracle ff\nlimit = nan' --oracle ff
-refused 2 "1e999: too large to be a number here; inf is one" 'oracle ff\nlimit = 1e999' --oracle ff
+refused 2 "limit = 1e999: too large to be a number here; inf is one" 'oracle ff\nlimit = 1e999' --oracle ff
 refused 2 "'limit' sets nothing; write NAME = VALUE" 'oracle ff\nlimit' --oracle ff
 refused 2 "'= 1' sets nothing" 'oracle ff\n= 1' --oracle ff
 refused 2 "'$(printf '%065d' 0)' is too long for a name" "oracle ff\n$(printf '%065d' 0) = 1" --oracle ff
