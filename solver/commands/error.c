@@ -66,7 +66,7 @@ static int match(struct comparison *c)
     if (theirs->face[theirs->count - 1] == theirs->count - 1 && theirs->count < mine->count)
         return report_error(reference, 0,
                             "%u faces, but %s has %u: they are not of one scene, or this one was "
-                            "cut short",
+                            "cut short; give tables of one scene",
                             (unsigned)theirs->count, faces, (unsigned)mine->count);
     for (uint32_t i = 0, j = 0; j < theirs->count; j++) {
         while (i < mine->count && mine->face[i] < theirs->face[j])

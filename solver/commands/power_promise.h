@@ -8,8 +8,8 @@
 /* What the powers (area times radiosity) of all faces together are wrong by, W. */
 struct power_promise {
     double tolerance; /* what was promised, of each band; 0: nothing */
-    double value, low,
-        high; /* as measured, all bands, with a 95 % interval; value < 0: it is not */
+    /* as measured, all bands, with a 95 % interval; value < 0: it is not */
+    double value, low, high;
     uint32_t bands;
 };
 

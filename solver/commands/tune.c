@@ -147,7 +147,9 @@ static int fit_all(struct work *w)
         return -1;
     tell(w, &out->all);
     if (!isfinite(out->all.found.value))
-        return report_error(out->oracle, 0, "nothing was solved within the ranges given");
+        return report_error(out->oracle, 0,
+                            "nothing was solved within the ranges given; give other ones, by "
+                            "--param NAME=LOW:HIGH");
     if (t->scene_count < 2)
         return 0;
     out->folds = calloc((size_t)t->scene_count, sizeof *out->folds);

@@ -111,8 +111,9 @@ static int solve(struct tuner *t, const int *at, int scene, double limit, struct
         if (radSetOracleParameter(t->oracle, t->parameters[i].name,
                                   tune_value(&t->parameters[i], at[i]))
             < 0)
-            return report_error("tune", 0, "%s cannot be %g", t->parameters[i].name,
-                                tune_value(&t->parameters[i], at[i]));
+            return report_error("tune", 0,
+                                "%s cannot be %g; give it a range, by --param NAME=LOW:HIGH",
+                                t->parameters[i].name, tune_value(&t->parameters[i], at[i]));
     t->limit = limit;
     t->cancelled = 0;
     t->solves++;

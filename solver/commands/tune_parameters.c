@@ -41,7 +41,7 @@ static int add(struct tuner *t, const struct oracle_parameter *p, double low, do
     *to = (struct tune_parameter){.name = p->name, .value = p->value};
     for (int i = 0; i < t->parameter_count; i++)
         if (strcmp(t->parameters[i].name, p->name) == 0)
-            return report_error("--param", 0, "%s is named twice", p->name);
+            return report_error("--param", 0, "%s is named twice; name it once", p->name);
     if (t->parameter_count == PATTERN_NUMBERS)
         return report_error("--param", 0, "more than %d parameters; fit some after the others",
                             (int)PATTERN_NUMBERS);
@@ -119,7 +119,7 @@ int tune_parameters(struct tuner *t, const char *name, char *const *wanted, int 
     if (!*names_of(&report, 0, names))
         return report_error(name, 0,
                             "no parameter can be fitted: none is a real number that is "
-                            "above 0 by default");
+                            "above 0 by default; give one such a default in a .dag file");
     return report_error(name, 0,
                         "no parameter has the role link_threshold and a default above 0; say which "
                         "to fit by --param NAME: %s",

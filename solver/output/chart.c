@@ -34,7 +34,8 @@ int chart_draw(const char *path, void (*print)(FILE *script, const void *context
 {
     FILE *script = tmpfile();
     if (!script)
-        return report_error(path, 0, "no temporary file to draw it with: %s", strerror(errno));
+        return report_error(path, 0, "no temporary file to draw it with: %s; make room in /tmp",
+                            strerror(errno));
     fprintf(script, "set terminal %s\n",
             ends_with(path, ".svg") ? "svg size 800,500 dynamic" : "pngcairo size 800,500");
     print(script, context);

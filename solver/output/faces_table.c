@@ -130,7 +130,8 @@ static int parse(struct faces_table *t, const char *path, size_t rows, uint32_t 
         uint32_t at = t->count + 2;
         int n = split(line, field);
         if (n != columns)
-            return report_error(path, at, "%d columns where the first line has %d", n, columns);
+            return report_error(
+                path, at, "%d columns where the first line has %d; correct the line", n, columns);
         double index;
         if (!number(field[face], &index) || !(index >= 0 && index < (faces ? faces : UINT32_MAX))
             || index != (uint32_t)index || (t->count && (uint32_t)index <= t->face[t->count - 1]))
@@ -168,9 +169,10 @@ int faces_table_read(struct faces_table *t, const char *path, uint32_t faces)
         return -1;
     for (const char *c = t->text; (c = strchr(c, '\n')); c++)
         rows++;
-    int failed = strlen(t->text) != size
-                     ? report_error(path, (uint32_t)rows + 1, "a byte 0: this is no table")
-                     : parse(t, path, rows, faces);
+    int failed = strlen(t->text) != size ? report_error(
+                     path, (uint32_t)rows + 1,
+                     "a byte 0: this is no table; give one as `radiosity solve --faces` writes it")
+                                         : parse(t, path, rows, faces);
     if (failed)
         faces_table_free(t);
     return failed;

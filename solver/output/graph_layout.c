@@ -77,7 +77,8 @@ static json_t *ask_dot(const struct drawing *p)
     FILE *from = tmpfile(), *to = tmpfile();
     json_t *placed = NULL;
     if (!from || !to) {
-        report_error(p->oracle, 0, "no temporary file to draw with: %s", strerror(errno));
+        report_error(p->oracle, 0, "no temporary file to draw it with: %s; make room in /tmp",
+                     strerror(errno));
     } else {
         print_dot(from, p);
         const int status = run_between(dot, from, to);
@@ -208,5 +209,8 @@ int drawing_place(struct drawing *p)
     for (i = 0; i < p->arc_count; i++)
         failed |= p->arcs[i].point_count == 0;
     json_decref(placed);
-    return failed ? report_error(p->oracle, 0, "Graphviz's layout is not as it should be") : 0;
+    return failed ? report_error(p->oracle, 0,
+                                 "Graphviz's layout is not as it should be; Graphviz 2.40 or later "
+                                 "is needed (package graphviz)")
+                  : 0;
 }

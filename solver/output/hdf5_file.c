@@ -113,7 +113,8 @@ struct hdf5_file *hdf5_create(const char *path, int together)
         f->temporary = f->target ? malloc(strlen(f->target) + 40) : NULL;
     }
     if (!f || !f->path || !f->temporary) {
-        report_error(path, 0, "cannot write: %s", strerror(errno));
+        report_error(path, 0, "cannot write: %s; choose a place where you may write",
+                     strerror(errno));
         hdf5_discard(f);
         return NULL;
     }

@@ -90,8 +90,8 @@ static int check(const char *path, const json_t *document)
     const json_t *schema = json_object_get(document, "schema");
     if (!json_is_string(schema))
         return report_error(path, 1,
-                            "no \"schema\": this is no file of solve --statistics "
-                            "FILE.json");
+                            "no \"schema\": this is no file of solve --statistics FILE.json; give "
+                            "one that it wrote");
     if (strcmp(json_string_value(schema), STATISTICS_SCHEMA) != 0)
         return report_error(path, 1, "schema %s, this program reads %s; write the file anew",
                             json_string_value(schema), STATISTICS_SCHEMA);

@@ -198,9 +198,8 @@ static int waits_for_disk(const struct child *c)
     char text[512];
     snprintf(text, sizeof text, "/proc/%ld/stat", (long)c->process);
     FILE *f = fopen(text, "r");
-    const char *const line = f ? fgets(text, sizeof text, f) : NULL, *const name_end =
-                                                                         line ? strrchr(line, ')')
-                                                                              : NULL;
+    const char *line = f ? fgets(text, sizeof text, f) : NULL;
+    const char *name_end = line ? strrchr(line, ')') : NULL;
     if (f)
         fclose(f);
     return name_end && strncmp(name_end, ") D", 3) == 0;
@@ -344,13 +343,14 @@ static int end_of(struct child *c, int taken)
     return status;
 }
 
-/* Say why the child has sent no scene. Returns -1. */
+/* Say why the child has sent no scene; `status` as waitpid tells it, -1: unknown. Returns -1. */
 static int tell(const struct child *c, const char *path, int status, int taken, double megabytes)
 {
-    if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == TOLD)
+    const int exited = status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+              killed = status != -1 && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (exited == TOLD)
         return -1;
-    if (taken == IMPORT_MEMORY
-        || (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == NO_MEMORY))
+    if (taken == IMPORT_MEMORY || exited == NO_MEMORY)
         return report_error(path, 0,
                             "the importer ran out of memory; the file is damaged, or needs more "
                             "than %.0f MB: convert it to OBJ, or give a larger machine",
@@ -360,9 +360,7 @@ static int tell(const struct child *c, const char *path, int status, int taken, 
                             "the importer hung: it waited %.0f s for something that does not come; "
                             "the file is damaged, or names a file that never ends",
                             IDLE);
-    if (c->late
-        || (status != -1 && WIFSIGNALED(status)
-            && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))
+    if (c->late || killed == SIGXCPU || killed == SIGKILL)
         return report_error(path, 0,
                             "the importer hung: stopped after %.0f s%s; the file is damaged, or "
                             "needs more: convert it to OBJ",
@@ -371,8 +369,7 @@ static int tell(const struct child *c, const char *path, int status, int taken, 
     return report_error(path, 0,
                         "the importer crashed%s%s; the file is damaged, or needs what the importer "
                         "cannot do: export it again, or convert it to OBJ",
-                        status != -1 && WIFSIGNALED(status) ? ": " : "",
-                        status != -1 && WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "");
+                        killed ? ": " : "", killed ? strsignal(killed) : "");
 }
 
 int import_in_child(struct scene_file *file, const char *path, import_reader *read)
@@ -381,7 +378,10 @@ int import_in_child(struct scene_file *file, const char *path, import_reader *re
     struct child c = {.seconds = SECONDS + SECONDS_PER_MB * 1e-6 * size, .begun = seconds()};
     int ends[2];
     if (pipe(ends))
-        return report_error(path, 0, "cannot start the importer: %s", strerror(errno));
+        return report_error(
+            path, 0,
+            "cannot start the importer: %s; end other programs, or convert the file to OBJ",
+            strerror(errno));
     c.pipe = ends[0];
     const pid_t parent = getpid();
     c.process = fork();
@@ -394,7 +394,10 @@ int import_in_child(struct scene_file *file, const char *path, import_reader *re
     close(ends[1]);
     if (c.process < 0) {
         close(ends[0]);
-        return report_error(path, 0, "cannot start the importer: %s", strerror(cause));
+        return report_error(
+            path, 0,
+            "cannot start the importer: %s; end other programs, or convert the file to OBJ",
+            strerror(cause));
     }
     const int taken = receive_file(&c, file), status = end_of(&c, taken);
     if (taken == 0)

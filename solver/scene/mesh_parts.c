@@ -165,7 +165,9 @@ static int report_missing(const struct mesh *m, uint32_t position, uint32_t line
                                 "this face names node %lld, which is not in the file; the file is "
                                 "cut or damaged, export it again",
                                 (long long)m->nodes.entry[i].number);
-    return report_error(m->path, line, "this face names a node that is not in the file");
+    return report_error(
+        m->path, line,
+        "this face names a node that is not in the file; it is cut or damaged, export it again");
 }
 
 int mesh_finish(struct mesh *m, int quiet)

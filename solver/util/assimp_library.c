@@ -16,7 +16,9 @@ const struct assimp *assimp_load(const char *path)
 #define ASSIMP_FIND(name) failed |= !library || loaded_symbol(library, #name, &assimp.name);
     ASSIMP_FUNCTIONS(ASSIMP_FIND)
     if (failed) {
-        report_error(path, 0, "needs Assimp, which does not load: %s", dlerror());
+        report_error(path, 0,
+                     "needs Assimp, which does not load: %s; install it (package libassimp-dev)",
+                     dlerror());
         assimp.aiImportFile = NULL;
         return NULL;
     }
