@@ -296,14 +296,15 @@ int error_image_write(const char *path, const struct solution *solution,
 {
     struct picture p;
     if (!seen->error || !seen->limit)
-        return report_error(path, 0, "out of memory for the errors of elements");
+        return report_error(path, 0,
+                            "out of memory for the errors of elements; use a coarser solution");
     if (picture_open(&p, path, solution, values, view, width, height, mesh) < 0)
         return -1;
     const struct error_colours c = {&p, seen, error_image_mean(solution, seen->error),
                                     error_image_scale(solution, seen->error),
                                     zoom_of(width, height)};
     if (c.scale < 0)
-        return report_error(path, 0, "out of memory for the picture; ask for a smaller one");
+        return picture_no_memory(path);
     uint8_t *rgb = picture_draw(&p, error_colour, &c);
     if (rgb)
         draw_scale(&(struct bitmap){rgb, width, height}, c.scale);

@@ -9,7 +9,6 @@
 
 #include "output/picture.h"
 #include "output/png_file.h"
-#include "util/report.h"
 
 static void light(const void *context, const struct picture_sample *at, double colour[3])
 {
@@ -23,7 +22,7 @@ static int gather_corners(const struct picture *p, struct vertex_values *values,
 {
     uint8_t *seen = calloc(p->solution->tree.count + (size_t)1, sizeof *seen);
     if (!seen)
-        return report_error(p->path, 0, "out of memory for the picture");
+        return picture_no_memory(p->path);
     int result = picture_seen(p, seen) < 0 ? -1
                                            : gathering_corners(gathering, values, p->solution, seen,
                                                                (double)p->width * p->height);

@@ -142,17 +142,39 @@ static int draw_rows(const struct drawing *d, int from, int to, uint8_t *rgb)
     return failed;
 }
 
-/* Luminances of what samples of w a row see: of lamps, or of all else. Returns how many. */
+/* The picture in w x h samples: what each sees. To be closed and ended in either case. Returns 0 or
+ * -1. */
+static int rasterize(const struct picture *p, int w, int h, struct raster *r,
+                     struct samples *samples)
+{
+    *r = (struct raster){0};
+    if (samples_open(samples, (size_t)w * (size_t)h, 0) < 0
+        || raster_begin(r, &p->solution->surfaces, &p->view, w, h, 0) < 0)
+        return -1;
+    raster_rows(r, 0, h, samples->face, samples->nearness);
+    return 0;
+}
+
+/* B where sample i sees that face. Returns the leaf. */
+static uint32_t see(const struct picture *p, const struct raster *r, size_t i, uint32_t face,
+                    double radiosity[3])
+{
+    const size_t w = (size_t)r->width;
+    double direction[3], point[3];
+    raster_point(r, p->solution, face, (double)(i % w), (double)(i / w), direction, point);
+    return vertex_values_at(p->values, p->solution, face, point, radiosity);
+}
+
+/* Luminances of what samples see: of lamps, or of all else. Returns how many. */
 static size_t read_meter(const struct picture *p, const struct raster *r, const uint32_t *face,
                          int lamps, struct meter_sample *meter)
 {
-    size_t count = 0, w = (size_t)r->width, all = w * (size_t)r->height;
+    size_t count = 0, all = (size_t)r->width * (size_t)r->height;
     for (size_t i = 0; i < all; i++) {
-        double direction[3], point[3], radiosity[3];
+        double radiosity[3];
         if (face[i] == NO_FACE || is_lamp(&p->solution->surfaces, face[i]) != lamps)
             continue;
-        raster_point(r, p->solution, face[i], (double)(i % w), (double)(i / w), direction, point);
-        vertex_values_at(p->values, p->solution, face[i], point, radiosity);
+        (void)see(p, r, i, face[i], radiosity);
         double l = luminance(radiosity, p->solution->tree.bands);
         if (l > 0)
             meter[count++] = (struct meter_sample){l, 1};
@@ -164,14 +186,11 @@ static size_t read_meter(const struct picture *p, const struct raster *r, const 
 static int measure(struct picture *p)
 {
     int w = (p->width + METER - 1) / METER, h = (p->height + METER - 1) / METER;
-    size_t all = (size_t)w * (size_t)h, count = 0;
-    struct meter_sample *meter = malloc(all * sizeof *meter);
+    size_t count = 0;
+    struct meter_sample *meter = malloc((size_t)w * (size_t)h * sizeof *meter);
     struct samples samples;
-    struct raster r = {0};
-    int failed = samples_open(&samples, all, 0) || !meter
-                 || raster_begin(&r, &p->solution->surfaces, &p->view, w, h, 0);
-    if (!failed)
-        raster_rows(&r, 0, h, samples.face, samples.nearness);
+    struct raster r;
+    const int failed = rasterize(p, w, h, &r, &samples) < 0 || !meter;
     for (int lamps = 0; lamps < 2 && !failed && !count; lamps++)
         count = read_meter(p, &r, samples.face, lamps, meter);
     if (!failed)
@@ -205,7 +224,7 @@ static int draw(const struct picture *p, picture_colour colour, const void *cont
     return atomic_load(&failed) ? -1 : 0;
 }
 
-static int out_of_memory(const char *path)
+int picture_no_memory(const char *path)
 {
     return report_error(path, 0, "out of memory for the picture; ask for a smaller one");
 }
@@ -226,31 +245,24 @@ int picture_open(struct picture *p, const char *path, const struct solution *sol
     if (view)
         p->view = *view;
     else if (view_guess(&solution->surfaces, &p->view) < 0)
-        return out_of_memory(path);
-    return measure(p) < 0 ? out_of_memory(path) : 0;
+        return picture_no_memory(path);
+    return measure(p) < 0 ? picture_no_memory(path) : 0;
 }
 
 int picture_seen(const struct picture *p, uint8_t *seen)
 {
-    const struct solution *s = p->solution;
-    size_t all = (size_t)p->width * (size_t)p->height;
     struct samples samples;
-    struct raster r = {0};
-    int failed = samples_open(&samples, all, 0)
-                 || raster_begin(&r, &s->surfaces, &p->view, p->width, p->height, 0);
-    if (!failed)
-        raster_rows(&r, 0, p->height, samples.face, samples.nearness);
+    struct raster r;
+    const int failed = rasterize(p, p->width, p->height, &r, &samples) < 0;
+    const size_t all = (size_t)p->width * (size_t)p->height;
     for (size_t i = 0; i < all && !failed; i++) {
-        double direction[3], point[3], radiosity[3];
-        if (samples.face[i] == NO_FACE)
-            continue;
-        raster_point(&r, s, samples.face[i], (double)(i % (size_t)p->width),
-                     (double)(i / (size_t)p->width), direction, point);
-        seen[vertex_values_at(p->values, s, samples.face[i], point, radiosity)] = 1;
+        double radiosity[3];
+        if (samples.face[i] != NO_FACE)
+            seen[see(p, &r, i, samples.face[i], radiosity)] = 1;
     }
     raster_end(&r);
     samples_close(&samples);
-    return failed ? out_of_memory(p->path) : 0;
+    return failed ? picture_no_memory(p->path) : 0;
 }
 
 uint8_t *picture_draw(const struct picture *p, picture_colour colour, const void *context)
@@ -260,6 +272,6 @@ uint8_t *picture_draw(const struct picture *p, picture_colour colour, const void
         return rgb;
     free(rgb);
     if (!p->gathering || !p->gathering->failed)
-        out_of_memory(p->path);
+        picture_no_memory(p->path);
     return NULL;
 }

@@ -32,6 +32,9 @@ struct picture_sample {
 typedef void (*picture_colour)(const void *context, const struct picture_sample *sample,
                                double colour[3]);
 
+/* Says that there is no memory for a picture. Returns -1. */
+int picture_no_memory(const char *path);
+
 /* View NULL: one is guessed. Backs of one-sided faces are cut away, so that one can look into a
  * closed room from outside. Nothing is copied. Returns 0, or -1 after one line on stderr. */
 int picture_open(struct picture *p, const char *path, const struct solution *solution,

@@ -103,7 +103,7 @@ int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct
     view_frame(view, surfaces, frame[0], frame[1], frame[2]);
     *r = (struct raster){.width = width, .height = height};
     memcpy(r->eye, view->eye, sizeof r->eye);
-    double half = tan(view->fov / 360 * 3.14159265358979323846), step = 2 * half / height;
+    const double step = 2 * view_half_height(view) / height;
     for (int k = 0; k < 3; k++) {
         r->step_x[k] = step * frame[0][k];
         r->step_y[k] = -step * frame[1][k];

@@ -100,13 +100,18 @@ void view_frame(const struct view *view, const struct surfaces *surfaces, double
     cross3(up, right, ahead);
 }
 
+double view_half_height(const struct view *view)
+{
+    return tan(view->fov / 360 * M_PI);
+}
+
 struct RadCamera view_camera(const struct view *view, const struct surfaces *surfaces,
                              double aspect)
 {
     struct RadCamera c;
     memcpy(c.eye, view->eye, sizeof c.eye);
     view_frame(view, surfaces, c.right, c.up, c.ahead);
-    c.high = tan(view->fov * (0.5 * 3.14159265358979323846 / 180));
+    c.high = view_half_height(view);
     c.wide = c.high * aspect;
     return c;
 }
@@ -154,8 +159,8 @@ static int judge(const struct surfaces *surfaces, const struct view *view, doubl
  * picture. */
 static void step_back(const struct surfaces *surfaces, struct view *v, const double d[3])
 {
-    double right[3], up[3], ahead[3], distance = 0,
-                                      half = tan(v->fov / 360 * 3.14159265358979323846);
+    const double half = view_half_height(v);
+    double right[3], up[3], ahead[3], distance = 0;
     view_frame(v, surfaces, right, up, ahead);
     for (int i = 0; i < 8; i++) {
         double p[3];

@@ -20,6 +20,9 @@ int view_parse(const char *text, struct view *view);
  * outside. Returns 0, or -1 when out of memory. */
 int view_guess(const struct surfaces *surfaces, struct view *view);
 
+/* Half the height of the picture, 1 m ahead (m). */
+double view_half_height(const struct view *view);
+
 /* The camera's frame: unit vectors to the right, up, ahead. Guesses `up` when it is not given, and
  * replaces it when the camera looks along it. */
 void view_frame(const struct view *view, const struct surfaces *surfaces, double right[3],

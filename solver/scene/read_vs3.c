@@ -144,7 +144,7 @@ static int read_corners(struct vs3 *v, uint32_t number, struct surface *s)
 static int read_plane(struct vs3 *v, uint32_t number, int shape, struct surface *s)
 {
     double at[5], flat[4][2] = {{0}};
-    const double degree = 3.14159265358979323846 / 180;
+    const double degree = M_PI / 180;
     for (int i = 0; i < 5; i++)
         if (take_number(v, "a plane's origin, azimuth and tilt", &at[i]))
             return -1;
