@@ -3,7 +3,6 @@
 #include "commands/factor_state.h"
 
 #include <errno.h>
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,8 +12,6 @@
 #include "util/machines.h"
 #include "util/report.h"
 #include "util/stop_signal.h"
-
-static const double SAVE_EVERY = 10; /* s; and no more than a twentieth of the time */
 
 /* ---- what the library calls */
 
@@ -30,7 +27,7 @@ static enum RadStateWish ask(void *user)
 {
     struct factor_state *s = user;
     const double now = seconds();
-    const int stop = stop_signal_came(), due = now - s->saved > fmax(SAVE_EVERY, 20 * s->save_for);
+    const int stop = stop_signal_came(), due = save_is_due(now - s->saved, s->save_for);
     s->save_began = now;
     if (stop || due)
         s->failed = 0;

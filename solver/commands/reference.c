@@ -32,7 +32,6 @@
 enum { LAG = 8 };
 
 static const uint64_t CHUNK = 1 << 17; /* paths, or half the particles, between looks at signals */
-static const double SAVE_EVERY = 10;   /* s; and no more than a twentieth of the time */
 static const double FORETELL = 2;      /* s, after which the time that it will take is told */
 /* of a run that sees nothing reflected: chosen, some seconds */
 static const uint64_t UNSEEN_RAYS = 1 << 24;
@@ -206,7 +205,7 @@ static int trace(struct run *r, enum RadMethod method, uint64_t wanted)
         }
         r->report.traced[method] = next;
         const int stopped = machines_agree(stop_signal_came()),
-                  late = seconds() - r->saved > fmax(SAVE_EVERY, 20 * r->save_for);
+                  late = save_is_due(seconds() - r->saved, r->save_for);
         if (machines_agree((stopped || late) && save(r) < 0))
             return 1;
         if (stopped)
