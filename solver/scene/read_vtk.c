@@ -203,10 +203,7 @@ static int read_offsets(struct vtk *v, size_t offsets, size_t size)
             return -1;
         const double *at = &v->numbers[v->number_count - 1];
         if (!is_whole(*at, (double)size + 1) || (i ? *at < at[-1] : *at > 0))
-            return report_error(v->mesh.path, v->lines.number,
-                                "offset %g is less than the one before it, or more than the %zu "
-                                "points of all cells; the file is damaged, export it again",
-                                *at, size);
+            return vtk_wrong_offset(&v->mesh, *at, size, v->lines.number);
         if (i
             && add_cell(v, start + offsets + (size_t)at[-1], (size_t)(*at - at[-1]),
                         v->lines.number))
@@ -280,9 +277,7 @@ static int read_types(struct vtk *v)
     if (take_count(v, "the number of types", &count))
         return -1;
     if (count != v->cell_count)
-        return report_error(v->mesh.path, v->lines.number,
-                            "%zu types of %zu cells; the file is damaged, export it again", count,
-                            v->cell_count);
+        return vtk_wrong_types(&v->mesh, count, v->cell_count, v->lines.number);
     begin_ints(v);
     for (size_t i = 0; i < count; i++)
         if (take_number(v, "a cell's type", &type) || end_cell(v, &v->cell[i], type))

@@ -94,16 +94,11 @@ static int add_cells(struct xml *x, struct vtk_points points, int section)
                             *corners = &list[CONNECTIVITY];
     double from = 0;
     if (section == CELLS && list[TYPES].count != offsets->count)
-        return report_error(x->mesh.path, list[TYPES].line,
-                            "%zu types of %zu cells; the file is damaged, export it again",
-                            list[TYPES].count, offsets->count);
+        return vtk_wrong_types(&x->mesh, list[TYPES].count, offsets->count, list[TYPES].line);
     for (size_t i = 0; i < offsets->count; i++) {
         const double to = offsets->at[i];
         if (!is_whole(to, (double)corners->count + 1) || to < from)
-            return report_error(x->mesh.path, offsets->line,
-                                "offset %g is less than the one before it, or more than the %zu "
-                                "points of all cells; the file is damaged, export it again",
-                                to, corners->count);
+            return vtk_wrong_offset(&x->mesh, to, corners->count, offsets->line);
         const double *first = corners->at ? corners->at + (size_t)from : NULL;
         if (vtk_cell(&x->mesh, points, section == CELLS ? list[TYPES].at[i] : types[section], first,
                      (size_t)(to - from), corners->line))

@@ -43,6 +43,21 @@ static int corners_of(double type)
     }
 }
 
+int vtk_wrong_offset(const struct mesh *m, double offset, size_t points, uint32_t line)
+{
+    return report_error(m->path, line,
+                        "offset %g is less than the one before it, or more than the %zu points of "
+                        "all cells; the file is damaged, export it again",
+                        offset, points);
+}
+
+int vtk_wrong_types(const struct mesh *m, size_t types, size_t cells, uint32_t line)
+{
+    return report_error(m->path, line,
+                        "%zu types of %zu cells; the file is damaged, export it again", types,
+                        cells);
+}
+
 static int add_corner(struct mesh *m, struct vtk_points points, double point, uint32_t line)
 {
     if (!is_whole(point, (double)points.count))

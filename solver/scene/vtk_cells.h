@@ -17,6 +17,11 @@ struct vtk_points {
     size_t first, count;
 };
 
+/* Says that an offset, of a cell's end among the `points` of all, is none. Returns -1. */
+int vtk_wrong_offset(const struct mesh *m, double offset, size_t points, uint32_t line);
+/* Says that types and cells are not as many. Returns -1. */
+int vtk_wrong_types(const struct mesh *m, size_t types, size_t cells, uint32_t line);
+
 /* A cell of `size` points, on a line of the file. Returns 0, or -1 after a message. */
 int vtk_cell(struct mesh *m, struct vtk_points points, double type, const double *point,
              size_t size, uint32_t line);
