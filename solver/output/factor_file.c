@@ -33,9 +33,8 @@ struct writer {
         unsigned char length;
     } * labels;
     int threads;
-    uint32_t batch;       /* rows at a time */
-    size_t work;          /* numbers that a thread works in */
-    double *rows;         /* [threads][work] */
+    uint32_t batch; /* rows at a time */
+    struct factor_reading rows;
     char *text;           /* [batch][room] */
     size_t room, *length; /* [batch] */
 };
@@ -95,18 +94,10 @@ static size_t write_energyplus(const struct writer *w, uint32_t i, const double 
     return (size_t)(at - text);
 }
 
-static uint32_t count_row(const struct writer *w, const double *row)
-{
-    uint32_t count = 0;
-    for (uint32_t j = 0; j < w->columns; j++)
-        count += row[j] > 0;
-    return count;
-}
-
 /* "3(.2 .1 .7)", of what is not 0. */
 static size_t write_foam(const struct writer *w, const double *row, char *text, int faces)
 {
-    char *at = text + number_text_whole(text, count_row(w, row)), *first = at;
+    char *at = text + number_text_whole(text, factor_row_entries(w->table, row)), *first = at;
     for (uint32_t j = 0; j < w->columns; j++) {
         if (!(row[j] > 0))
             continue;
@@ -144,12 +135,6 @@ static size_t row_room(const struct writer *w)
 
 /* ---- all rows */
 
-/* Row i of the matrix, in the thread's own place. */
-static const double *row_of(const struct writer *w, uint32_t i)
-{
-    return factor_table_row(w->table, i, &w->rows[(size_t)thread_pool_number() * w->work]);
-}
-
 struct counting {
     const struct writer *writer;
     atomic_ullong *count;
@@ -159,7 +144,9 @@ static void count_rows(const void *context, size_t from, size_t to)
 {
     const struct counting *c = context;
     for (size_t i = from; i < to; i++)
-        atomic_fetch_add(c->count, count_row(c->writer, row_of(c->writer, (uint32_t)i)));
+        atomic_fetch_add(c->count,
+                         factor_row_entries(c->writer->table,
+                                            factor_reading_row(&c->writer->rows, (uint32_t)i)));
 }
 
 /* Entries that are not 0. */
@@ -182,7 +169,7 @@ static void write_batch(const void *context, size_t from, size_t to)
     const struct writer *w = b->writer;
     for (size_t k = from; k < to; k++) {
         const uint32_t i = b->first + (uint32_t)k;
-        w->length[k] = b->write(w, i, row_of(w, i), w->text + k * w->room);
+        w->length[k] = b->write(w, i, factor_reading_row(&w->rows, i), w->text + k * w->room);
     }
 }
 
@@ -205,12 +192,11 @@ static int open_writer(struct writer *w)
         w->batch = 2 * (uint32_t)w->threads;
     if (w->batch > n)
         w->batch = n ? n : 1;
-    w->work = factor_table_room(w->table);
     w->text = malloc(w->batch * w->room);
     w->length = malloc(w->batch * sizeof *w->length);
     w->labels = calloc((size_t)columns + 1, sizeof *w->labels);
-    w->rows = malloc((size_t)w->threads * w->work * sizeof *w->rows);
-    if (!w->text || !w->length || !w->labels || !w->rows)
+    const int failed = factor_reading_open(&w->rows, w->table, w->threads);
+    if (failed || !w->text || !w->length || !w->labels)
         return -1;
     for (uint32_t j = 0; j < columns; j++) {
         char text[NUMBER_TEXT];
@@ -226,7 +212,7 @@ static void close_writer(struct writer *w)
 {
     factor_names_free(w->names, w->count);
     free(w->zone);
-    free(w->rows);
+    factor_reading_close(&w->rows);
     free(w->text);
     free(w->length);
     free(w->labels);

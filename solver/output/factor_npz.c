@@ -20,8 +20,7 @@ struct npz {
     const struct factor_table *table;
     struct zip_file zip;
     int threads;
-    size_t work;
-    double *rows;    /* [threads][work] */
+    struct factor_reading rows;
     uint64_t *first; /* [count + 1]: entries before each row */
     uint32_t batch;  /* rows at a time */
     char *packed;    /* [batch][columns] values or columns */
@@ -79,21 +78,11 @@ static void write_names(struct npz *p)
     free(name);
 }
 
-static const double *row_of(const struct npz *p, uint32_t r)
-{
-    return factor_table_row(p->table, r, &p->rows[(size_t)thread_pool_number() * p->work]);
-}
-
 static void count_rows(const void *context, size_t from, size_t to)
 {
     const struct npz *p = context;
-    for (size_t r = from; r < to; r++) {
-        const double *row = row_of(p, (uint32_t)r);
-        uint64_t count = 0;
-        for (uint32_t j = 0; j < p->table->columns; j++)
-            count += row[j] > 0;
-        p->first[r + 1] = count;
-    }
+    for (size_t r = from; r < to; r++)
+        p->first[r + 1] = factor_row_entries(p->table, factor_reading_row(&p->rows, (uint32_t)r));
 }
 
 static void count_entries(struct npz *p)
@@ -107,7 +96,7 @@ static void count_entries(struct npz *p)
 /* A row's values, or else its columns, in so many bytes each, at their place in the batch. */
 static void pack_row(const struct npz *p, uint32_t r, size_t size, int values, char *to)
 {
-    const double *row = row_of(p, r);
+    const double *row = factor_reading_row(&p->rows, r);
     for (uint32_t j = 0; j < p->table->columns; j++) {
         if (!(row[j] > 0))
             continue;
@@ -209,19 +198,19 @@ int factor_npz_write(const char *path, const struct factor_table *table, int thr
 {
     const uint32_t n = table->count;
     const size_t row = 8 * ((size_t)table->columns + 1);
-    struct npz p = {.table = table, .threads = threads, .work = factor_table_room(table)};
+    struct npz p = {.table = table, .threads = threads};
     p.batch = (uint32_t)(MOST / row) > 2 * (uint32_t)threads ? (uint32_t)(MOST / row)
                                                              : 2 * (uint32_t)threads;
     p.batch = p.batch > n ? n + 1 : p.batch;
     p.packed = malloc(p.batch * row);
-    p.rows = malloc((size_t)threads * p.work * sizeof *p.rows);
+    const int failed = factor_reading_open(&p.rows, table, threads);
     p.first = calloc((size_t)n + 1, sizeof *p.first);
     int status =
-        p.packed && p.rows && p.first
+        p.packed && !failed && p.first
             ? write_file(&p, path)
             : report_error(path, 0, "out of memory for the matrix; fewer --threads need less");
     free(p.packed);
-    free(p.rows);
+    factor_reading_close(&p.rows);
     free(p.first);
     return status;
 }

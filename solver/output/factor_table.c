@@ -11,6 +11,7 @@
 
 #include "util/beside.h"
 #include "util/fold.h"
+#include "util/thread_pool.h"
 
 #define NONE UINT32_MAX /* a part without a face */
 
@@ -144,9 +145,17 @@ void factor_table_close(struct factor_table *t)
     *t = (struct factor_table){0};
 }
 
-size_t factor_table_room(const struct factor_table *t)
+int factor_reading_open(struct factor_reading *rows, const struct factor_table *t, int threads)
 {
-    return (size_t)t->all + 2 + (t->of ? t->columns : 0);
+    *rows =
+        (struct factor_reading){.table = t, .size = (size_t)t->all + 2 + (t->of ? t->columns : 0)};
+    rows->rooms = malloc((size_t)threads * rows->size * sizeof *rows->rooms);
+    return rows->rooms ? 0 : -1;
+}
+
+void factor_reading_close(struct factor_reading *rows)
+{
+    free(rows->rooms);
 }
 
 /* Row i of the exchange, and what it loses behind it. */
@@ -161,8 +170,10 @@ static void face_row(const struct factor_table *t, uint32_t i, double *row)
     row[t->polygons + 1] = loss.backs;
 }
 
-const double *factor_table_row(const struct factor_table *t, uint32_t r, double *room)
+const double *factor_reading_row(const struct factor_reading *rows, uint32_t r)
 {
+    const struct factor_table *t = rows->table;
+    double *room = &rows->rooms[(size_t)thread_pool_number() * rows->size];
     if (!t->of) {
         face_row(t, r, room);
         return room;
@@ -182,4 +193,12 @@ const double *factor_table_row(const struct factor_table *t, uint32_t r, double 
     for (uint32_t h = 0; h < t->columns; h++)
         sums[h] = t->areas[r] > 0 ? sums[h] / t->areas[r] : 0;
     return sums;
+}
+
+uint32_t factor_row_entries(const struct factor_table *t, const double *row)
+{
+    uint32_t count = 0;
+    for (uint32_t j = 0; j < t->columns; j++)
+        count += row[j] > 0;
+    return count;
 }

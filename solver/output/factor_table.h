@@ -42,10 +42,21 @@ int factor_table_open(struct factor_table *table, RadExchange exchange, uint32_t
                       const struct factor_parts *parts, int losses);
 void factor_table_close(struct factor_table *table);
 
-/* How many numbers a thread needs to work in. */
-size_t factor_table_room(const struct factor_table *table);
+/* Rows as many threads ask for them, each of which has a room of its own. */
+struct factor_reading {
+    const struct factor_table *table;
+    size_t size;   /* of a room, numbers */
+    double *rooms; /* [threads][size] */
+};
 
-/* Row r, [columns], somewhere in `room`. From many threads at once, each with a room of its own. */
-const double *factor_table_row(const struct factor_table *table, uint32_t r, double *room);
+/* Returns 0, or -1 when out of memory; to be closed in either case. */
+int factor_reading_open(struct factor_reading *rows, const struct factor_table *table, int threads);
+void factor_reading_close(struct factor_reading *rows);
+
+/* Row r, [columns], until the same thread of the pool asks for another. */
+const double *factor_reading_row(const struct factor_reading *rows, uint32_t r);
+
+/* How many entries of a row are not 0. */
+uint32_t factor_row_entries(const struct factor_table *table, const double *row);
 
 #endif
