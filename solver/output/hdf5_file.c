@@ -208,31 +208,30 @@ int hdf5_put(struct hdf5_file *f, const char *name, enum hdf5_type type, uint64_
     return result;
 }
 
-int hdf5_put_number(struct hdf5_file *f, const char *name, double value)
+/* Takes over `kind`. */
+static int put_attribute(struct hdf5_file *f, const char *name, hid_t kind, const void *value)
 {
     const hid_t space = H5Screate(H5S_SCALAR),
-                attribute =
-                    H5Acreate2(f->id, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT);
-    const int failed = attribute < 0 || H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) < 0;
-    const int result = all_did(f, failed, 0);
-    if (attribute >= 0)
-        H5Aclose(attribute);
-    H5Sclose(space);
-    return result;
-}
-
-int hdf5_put_text(struct hdf5_file *f, const char *name, const char *text)
-{
-    const hid_t space = H5Screate(H5S_SCALAR), kind = H5Tcopy(H5T_C_S1);
-    H5Tset_size(kind, strlen(text) + 1);
-    const hid_t attribute = H5Acreate2(f->id, name, kind, space, H5P_DEFAULT, H5P_DEFAULT);
-    const int failed = attribute < 0 || H5Awrite(attribute, kind, text) < 0;
+                attribute = H5Acreate2(f->id, name, kind, space, H5P_DEFAULT, H5P_DEFAULT);
+    const int failed = attribute < 0 || H5Awrite(attribute, kind, value) < 0;
     const int result = all_did(f, failed, 0);
     if (attribute >= 0)
         H5Aclose(attribute);
     H5Tclose(kind);
     H5Sclose(space);
     return result;
+}
+
+int hdf5_put_number(struct hdf5_file *f, const char *name, double value)
+{
+    return put_attribute(f, name, H5Tcopy(H5T_NATIVE_DOUBLE), &value);
+}
+
+int hdf5_put_text(struct hdf5_file *f, const char *name, const char *text)
+{
+    const hid_t kind = H5Tcopy(H5T_C_S1);
+    H5Tset_size(kind, strlen(text) + 1);
+    return put_attribute(f, name, kind, text);
 }
 
 /* On the disk, before it takes the name of what was there. */
@@ -300,6 +299,11 @@ static hid_t set_of(struct hdf5_file *f, const char *name)
     return H5Lexists(f->id, name, H5P_DEFAULT) > 0 ? H5Dopen2(f->id, name, H5P_DEFAULT) : -1;
 }
 
+static hid_t attribute_of(struct hdf5_file *f, const char *name)
+{
+    return H5Aexists(f->id, name) > 0 ? H5Aopen(f->id, name, H5P_DEFAULT) : -1;
+}
+
 int hdf5_size(struct hdf5_file *f, const char *name, enum hdf5_type type, uint64_t *rows,
               uint64_t *columns)
 {
@@ -337,8 +341,7 @@ int hdf5_get(struct hdf5_file *f, const char *name, enum hdf5_type type, uint64_
 
 int hdf5_get_number(struct hdf5_file *f, const char *name, double *value)
 {
-    const hid_t attribute =
-        H5Aexists(f->id, name) > 0 ? H5Aopen(f->id, name, H5P_DEFAULT) : H5I_INVALID_HID;
+    const hid_t attribute = attribute_of(f, name);
     if (attribute < 0)
         return -1;
     const hid_t space = H5Aget_space(attribute);
@@ -353,8 +356,7 @@ int hdf5_get_number(struct hdf5_file *f, const char *name, double *value)
 int hdf5_has_text(struct hdf5_file *f, const char *name, const char *text)
 {
     char is[64] = "";
-    const hid_t attribute =
-        H5Aexists(f->id, name) > 0 ? H5Aopen(f->id, name, H5P_DEFAULT) : H5I_INVALID_HID;
+    const hid_t attribute = attribute_of(f, name);
     if (attribute < 0)
         return 0;
     const hid_t kind = H5Aget_type(attribute);
