@@ -16,7 +16,7 @@ solve() {
 value() { tr -d ' \n' <"$2.json" | sed -n "s/.*\"$1\":\\(\\[[^]]*\\]\\|[0-9]*\\).*/\\1/p"; }
 same() {
     for key in links element_marks pairs; do
-        [ -n "$(value $key "$1")" ] && [ "$(value $key "$1")" = "$(value $key "$2")" ] || failed "$key of $1 and $2: $(value $key "$1") $(value $key "$2")"
+        alike "$(value $key "$1")" "$(value $key "$2")" || failed "$key of $1 and $2: $(value $key "$1") $(value $key "$2")"
     done
     cmp -s "$1.csv" "$2.csv" || failed "light of $1 and $2"
 }

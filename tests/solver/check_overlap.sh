@@ -9,10 +9,6 @@ solve() { # SCENE [OPTIONS]: power emitted and absorbed to the file `out`
     "$radiosity" solve "$scene" --no-correct --no-errors --oracle ff --set limit=0.02 --json json "$@" >/dev/null 2>err || return 1
     sed -n 's/.*"power_\(emitted\|absorbed\)": \([0-9.e+-]*\),.*/\2/p' json | tr '\n' ' ' >out
 }
-near() { # A B PART: is A within that part of B?
-    awk -v a="$1" -v b="$2" -v part="$3" 'BEGIN { exit !(a >= b * (1 - part) && a <= b * (1 + part)) }'
-}
-told() { grep -q "$1" err || failed "not told: $1"; }
 
 printf 'newmtl w\nKd .3\nnewmtl w_2s\nKd .3\nnewmtl l\nKd .3\nKe 10\n' >box.mtl
 cat >room.obj <<'END'
@@ -52,14 +48,14 @@ for what in 'w\nf 9 10 11 12' 'w_2s\nf 12 11 10 9' 'w\nf 2 3 4 1' 'w\nf 1 2 3\nf
     printf "usemtl $what\n" >>over.obj
     solve over.obj || failed "floor $what"
     read -r e a <out
-    near "$e" "$emitted" 1e-9 && near "$a" "$absorbed" .001 || failed "floor $what: emitted $e, absorbed $a of $absorbed"
+    within "$emitted" "$e" 1e-9 && within "$absorbed" "$a" .001 || failed "floor $what: emitted $e, absorbed $a of $absorbed"
     told 'over.obj:27: warning: face 6 (line 27) lies on face 0 (line 19) in one plane'
     solve over.obj -q && [ ! -s err ] || failed "floor $what: not quiet"
 done
 "$radiosity" viewfactors over.obj -q -o factors.csv 2>err || failed "view factors"
 check "view factors: faces keep their numbers, rows of the box sum to 1, those of covered faces to 0" \
-    awk -F, '{ for (i = sum = 0; i < NF; i++) sum += $(i + 1); if (NF != 9 || (sum - (NR <= 6)) ^ 2 > 1e-6) exit 1 }
-        END { exit NR != 9 }' factors.csv
+    awk -F, '{ for (i = sum = 0; i < NF; i++) sum += $(i + 1); if (NF != 9 || (sum - (NR <= 6)) ^ 2 > 1e-6) exit bad = 1 }
+        END { exit bad || NR != 9 }' factors.csv
 
 # a lamp in the ceiling's plane, before and behind it in the file, and one in two
 for what in 'usemtl w\nf 5 8 7 6\nusemtl l\nf 16 15 14 13' 'usemtl l\nf 16 15 14 13\nusemtl w\nf 5 8 7 6' \
@@ -69,7 +65,7 @@ for what in 'usemtl w\nf 5 8 7 6\nusemtl l\nf 16 15 14 13' 'usemtl l\nf 16 15 14
     printf "$what\n" >>lamp.obj
     solve lamp.obj || failed "lamp $what"
     read -r e a <out
-    near "$e" 7 1e-6 && near "$a" 7 .02 || failed "lamp $what: emitted $e, absorbed $a"
+    within 7 "$e" 1e-6 && within 7 "$a" .02 || failed "lamp $what: emitted $e, absorbed $a"
     told 'lies on face'
 done
 
@@ -113,7 +109,7 @@ for what in 'w\nf 9 14 12 11\nf 9 11 12 14' 'w\nf 9 14 12 11\nf 9 10 13 14\nf 10
     "$radiosity" solve wall.obj -q --no-errors --json json 2>err && [ ! -s err ] || failed "a thin wall, $what"
     sed -n 's/.*"power_absorbed": \([0-9.e+-]*\),.*/\1/p' json >out
     read -r a <out
-    near "$a" 40 .001 || failed "a thin wall, $what: absorbed $a of 40"
+    within 40 "$a" .001 || failed "a thin wall, $what: absorbed $a of 40"
 done
 
 count=$((count + 1))

@@ -24,7 +24,7 @@ same() {
     # shellcheck disable=SC2086 # words
     solve --oracle ff --params f $2 --faces a.csv --json a.json && solve --oracle ff $3 --faces b.csv --json b.json || failed "solve: $1"
     links() { sed -n 's/.*"links": *\([0-9]*\).*/\1/p' "$1"; }
-    [ -n "$(links a.json)" ] && [ "$(links a.json)" = "$(links b.json)" ] && cmp -s a.csv b.csv || failed "not the same: $1 $2 and $3"
+    alike "$(links a.json)" "$(links b.json)" && cmp -s a.csv b.csv || failed "not the same: $1 $2 and $3"
 }
 
 same 'oracle ff\n' "" ""

@@ -32,7 +32,6 @@ rank_of() { # COMMAND RANK: wait for the process, one of this script's, then $fo
 }
 
 # ---- the same answer
-value() { sed -n "s/^  \"$2\": \(.*[^,]\),*$/\1/p" "$1" | head -n 1; }
 near() { within "$1" "$2" 1e-12; }
 how= # options
 compare_ranks() { # SCENE RANKS...: against one process
@@ -47,7 +46,7 @@ compare_ranks() { # SCENE RANKS...: against one process
         check "$name on $n ranks: exit status $?: $(head -n 3 said)" [ -s several.json ]
         for key in link_fingerprint particle_fingerprint links pairs rays elements passes iterations; do
             check "$name on $n ranks: $key $(value several.json $key), alone $(value one.json $key)" \
-                [ "$(value several.json $key)" = "$(value one.json $key)" -a -n "$(value one.json $key)" ]
+                alike "$(value several.json $key)" "$(value one.json $key)"
         done
         check "$name on $n ranks: other decisions" diff <(sed -n '/"decisions"/,/}/p' one.json) <(sed -n '/"decisions"/,/}/p' several.json)
         check "$name on $n ranks: other faces that are not known" diff <(grep _unsure one.json) <(grep _unsure several.json)
@@ -115,7 +114,7 @@ boxes() { # FACES
     "$radiosity" solve boxes.obj --scale 16 -q --threads 1 --json one.json -o one.ply
     several 4 "$radiosity" solve boxes.obj --scale 16 -q --threads 1 --json several.json --faces several.csv >said 2>&1
     sed '/"ranks"/,$!d' several.json >ranks.json
-    check "$1 boxes: $(head -n 3 said)" [ "$(value several.json particle_fingerprint)" = "$(value one.json particle_fingerprint)" ]
+    check "$1 boxes: $(head -n 3 said)" alike "$(value several.json particle_fingerprint)" "$(value one.json particle_fingerprint)"
     mv several.json all.json && mv ranks.json several.json
     held=$(ranks_most elements) told=$(ranks_most sweeps) ghosts=$(ranks_most ghosts) memory=$(ranks_most memory_mb)
     check "$1 boxes: one of 4 ranks has $held of $(value one.json elements) elements" below "$held" "$(awk "BEGIN { print .45 * $(value one.json elements) }")"
@@ -152,7 +151,7 @@ for how in "--oracle bf_guarded" "--oracle ff --basis constant" "--oracle cluste
     # shellcheck disable=SC2086
     several 3 "$radiosity" solve "$scenes/cornell.obj" $how -q --json several.json >said 2>&1
     check "cornell, $how: $(value several.json link_fingerprint), alone $(value one.json link_fingerprint); $(head -n 3 said)" \
-        [ "$(value several.json link_fingerprint)" = "$(value one.json link_fingerprint)" ]
+        alike "$(value several.json link_fingerprint)" "$(value one.json link_fingerprint)"
     check "cornell, $how: other light" near "$(value several.json power_absorbed)" "$(value one.json power_absorbed)"
 done
 "$radiosity" reference "$scenes/cornell.obj" -o one.csv --accuracy 2% -q
@@ -220,7 +219,7 @@ done
 check "view factors were stopped, and ended: $stops times, status $status, $(head -n 3 said)" [ $stops -gt 0 -a $status = 0 ]
 check "view factors that were stopped" cmp one.csv several.csv
 check "the state is gone" [ ! -e state ]
-for of in links pairs rays; do check "the same $of" [ "$(value one.json $of)" = "$(value several.json $of)" ]; done
+for of in links pairs rays; do check "the same $of" alike "$(value one.json $of)" "$(value several.json $of)"; done
 head -c 5000 /dev/zero >state
 
 # ---- what is refused, by one message

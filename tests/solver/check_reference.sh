@@ -3,7 +3,6 @@
 # states that are damaged or of another scene. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
-value() { sed -n "s/.*\"$1\": \\([-0-9.e+]*\\),*$/\\1/p" "$2" | head -n 1; }
 less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a + 0 < b + 0) }'; }
 
 # ---- a furnace: B = E / (1 - rho) = 2 on all faces, within what the table says of itself
@@ -13,8 +12,8 @@ check "no word on standard error" [ ! -s err ]
 check "columns" [ "$(head -n 1 f.csv)" = "face,area,B_0,se_0" ]
 check "rows" [ "$(wc -l <f.csv)" = 7 ]
 check "B of a furnace" awk -F, 'NR > 1 && !($2 == 1 && $4 > 0 && ($3 - 2) ^ 2 < 25 * $4 ^ 2) { bad = 1 } END { exit bad }' f.csv
-check "the promised error" less "$(value both f.json)" 0.004
-check "reflected" less 5.9 "$(value reflected f.json)"
+check "the promised error" less "$(first_number both f.json)" 0.004
+check "reflected" less 5.9 "$(first_number reflected f.json)"
 check "they agree" grep -q '"agree": true' f.json
 check "no state is left" [ ! -e f.csv.state ]
 cat >exact.csv <<END
@@ -27,7 +26,7 @@ face,area,E_0,B_0
 5,1,1,2
 END
 "$radiosity" error exact.csv f.csv --json e.json >out 2>err
-check "error reads it" less "$(value l1_faces e.json)" 0.008
+check "error reads it" less "$(first_number l1_faces e.json)" 0.008
 check "two-sided area" sh -c "'$radiosity' reference '$scenes/furnace.obj' --two-sided -q -o t.csv --accuracy 2% && sed -n 2p t.csv | grep -q '^0,2,'"
 
 # ---- three bands, any number of threads, in one go or in two: the same bytes

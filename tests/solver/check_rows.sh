@@ -7,7 +7,6 @@ factors() { # SCENE [OPTIONS]: the matrix to m.csv, what is said to out and err,
     count=$((count + 1))
     "$radiosity" viewfactors "$@" -o m.csv --json json >out 2>err || failed "viewfactors $*"
 }
-told() { grep -q "$1" err || failed "not told: $1"; }
 silent() { ! grep -q "$1" err || failed "told: $1"; }
 figure() { # NAME WANTED OFF
     sed -n "s/.*\"$1\": \([0-9.e+-]*\)[,}]*.*/\1/p" json >figure
@@ -16,8 +15,8 @@ figure() { # NAME WANTED OFF
 }
 differ() { # A.csv B.csv MOST: no two entries by more than that
     paste -d, "$1" "$2" | awk -F, -v most="$3" '{ for (i = 1; i <= NF / 2; i++) {
-            d = $i - $(i + NF / 2); if (d * d > most * most) exit 1 } }
-        END { exit NR < 6 }' || failed "$1 and $2 differ by more than $3: $4"
+            d = $i - $(i + NF / 2); if (d * d > most * most) exit bad = 1 } }
+        END { exit bad || NR < 6 }' || failed "$1 and $2 differ by more than $3: $4"
 }
 
 cat >cube.obj <<'END'

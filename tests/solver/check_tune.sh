@@ -77,7 +77,7 @@ check "the new one solves" "$radiosity" solve "$room" --oracle mine.dag -q --no-
 # shellcheck disable=SC2086
 "$radiosity" tune ff $how -o away/ff.dag >out 2>err
 check "a built-in one stands alone" "$radiosity" solve "$room" --oracle away/ff.dag -q --no-errors --no-correct
-check "both are fitted alike" [ "$(grep 'param limit' away/ff.dag)" = "$(grep 'param limit' mine.dag)" ]
+check "both are fitted alike" alike "$(grep 'param limit' away/ff.dag)" "$(grep 'param limit' mine.dag)"
 # shellcheck disable=SC2086
 "$radiosity" tune ff $room --error 20% --evaluations 2 >out 2>err
 check "one scene" grep -q "^not cross-validated: that takes two scenes or more" out

@@ -24,9 +24,17 @@ check() { # WHAT COMMAND...: the command must succeed
     count=$((count + 1))
     ${quietly:-} "$@" || failed "$what"
 }
-within() { # A B SHARE: is B no farther from A than this share of it?
-    awk -v a="$1" -v b="$2" -v share="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= share * (a < 0 ? -a : a)) }'
+alike() { # A B: the same words, and some?
+    [ -n "$1" ] && [ "$1" = "$2" ]
 }
+within() { # A B SHARE: is B no farther from A than this share of it? What is no number, as a value that is missing, is not.
+    awk -v a="$1" -v b="$2" -v share="$3" 'BEGIN {
+        d = a - b; if (d < 0) d = -d; exit !(a == a + 0 && b == b + 0 && d <= share * (a < 0 ? -a : a)) }'
+}
+first_number() { # KEY FILE.json
+    sed -n "s/.*\"$1\": \\([-0-9.e+]*\\),*$/\\1/p" "$2" | head -n 1
+}
+told() { grep -q "$1" err || failed "not told: $1"; }
 into_files() { # COMMAND...; a script whose checks write too much says quietly=into_files
     "$@" >out 2>err
 }
