@@ -309,3 +309,11 @@ void dag_order_questions(struct dag *dag, struct profile *profile)
         continue;
     (void)sweep(&o, 1);
 }
+
+void dag_keep_order(struct dag *dag, struct profile *profile, const char *why)
+{
+    struct ordering o = {dag, profile, &dag->oracles[profile->oracle]};
+    dag->oracles[profile->oracle] = profile->before;
+    profile->ordered = profile->told_count = 0;
+    tell(&o, why);
+}

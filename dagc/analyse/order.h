@@ -12,4 +12,7 @@
  * dag_diff_graphs. */
 void dag_order_questions(struct dag *dag, struct profile *profile);
 
+/* Puts back the graph that was measured; profile->told says why, and no more. */
+void dag_keep_order(struct dag *dag, struct profile *profile, const char *why);
+
 #endif

@@ -61,7 +61,7 @@ int dag_diff_graphs(struct dag *dag, const struct oracle_graph *a, const struct 
 {
     const struct compared side[SIDES] = {{dag, a, NULL}, {dag, b, NULL}};
     const struct differences found = dag_walk_both(side, &dag->arena, NULL);
-    return found.ways > 0 || found.cut;
+    return found.ways > 0 ? 1 : found.cut ? 2 : 0;
 }
 
 /* (Protected twice: the arenas of both dags grow.) */

@@ -11,8 +11,8 @@
  * own that differ, or more states than it can look at. */
 int dag_diff(const char *a, const char *b, const struct dag_options *options, FILE *out);
 
-/* Of two graphs of one dag, and nothing is printed: 0 the same, else different or too many states.
- * Inside dag_protect. */
+/* Of two graphs of one dag, and nothing is printed: 0 the same, 1 different, 2 more states than it
+ * can look at. Inside dag_protect. */
 int dag_diff_graphs(struct dag *dag, const struct oracle_graph *a, const struct oracle_graph *b);
 
 #endif

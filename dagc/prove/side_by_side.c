@@ -5,11 +5,12 @@
  * a tool, its arguments (parameters by name, numbers by value) and what its side has done to the
  * terms that it and its arguments read; whoever asks it again gets the answer it had. What is done
  * to a term is known by levels where arguments read it: they say at which. A tool says less: what
- * it writes is its own, and what it reads it may leave finer than it was, unless the term has no
- * levels or is at its last. So these count by who they were, in which order; the same question
- * finds what it left. A state that was seen is not walked again, and where both sides stand before
- * the same subgraph with the same terms nothing can differ, so the work is polynomial in all but
- * the answers that stay relevant; it is capped, and a walk that was cut short says so.
+ * it writes is its own, and what it reads it may leave finer than it was, unless it is at its last
+ * level. So these count by who they were, in which order; the same question finds what it left. A
+ * term without levels is the same whoever reads it first, an argument or a tool. A state that was
+ * seen is not walked again, and where both sides stand before the same subgraph with the same terms
+ * nothing can differ, so the work is polynomial in all but the answers that stay relevant; it is
+ * capped, and a walk that was cut short says so.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
@@ -99,7 +100,8 @@ static struct known known_at(const struct side *side, const struct node *node, i
     const uint64_t levels = (uint64_t)dag->terms[term].levels.count;
     struct known known = side->known[term];
     for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
-        if (dag->needs[i].term == term && (uint64_t)dag->needs[i].level > known.level) {
+        if (dag->needs[i].term == term && levels > 0
+            && (uint64_t)dag->needs[i].level > known.level) {
             known.level = (uint64_t)dag->needs[i].level;
             known.last = 0;
         }

@@ -123,6 +123,24 @@ oracle row { start a; node a = tally(upto = 2) { otherwise -> b; } node b = tall
 END
 sed 's/upto = 2/upto = 3/' wrote.dag >other.dag
 check "diff: what a tool writes is its own" status 1 "$dagc" diff --catalog "$catalog" wrote.dag other.dag
+# A term without levels is the same whoever reads it first: an argument, or a tool.
+cat >plain.dag <<'END'
+runtime "discussion.h" abi 7;
+type ratio = real "";
+term far : ratio in [0, inf];
+tool above(value : ratio, limit : ratio) question answers (no precise, yes precise) "Above?";
+tool away(limit : ratio) question answers (near precise, far precise) reads (far) "Far?";
+decision keep "";
+decision drop "";
+END
+plain() { # START NEXT_OF_ABOVE NEXT_OF_AWAY
+    printf 'catalog "plain.dag"; oracle plain { start %s;\n' "$1"
+    printf 'node above = above(value = far, limit = 4) { no -> %s; yes -> drop; }\n' "$2"
+    printf 'node away = away(limit = 3) { near -> %s; far -> drop; } }\n' "$3"
+}
+plain above away keep >first.dag
+plain away keep above >second.dag
+check "diff: readers of a term without levels, in another order" says '^0 ways to decide differ' "$dagc" diff first.dag second.dag
 for place in 's/share = 0.5/share = ZERO/' 's/flux = 1 /flux = ZERO /'; do
     sed "$place; s/ZERO/0/" small.dag >zero.dag
     sed "$place; s/ZERO/-0/" small.dag >below.dag

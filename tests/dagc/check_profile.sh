@@ -144,4 +144,49 @@ graphs=60
 check "random graphs decide as before" random_graphs $graphs
 sed -n 's/ exchanges/ exchanges in random graphs/p' "$tmp/out"
 
+# Two questions that commute behind 24 others that are asked again further on: what they answered tells 2^24 ways apart.
+awk 'function node(name, tool, share, low, high) {
+    printf "  node %s = %s(share = %g) { no -> %s; yes -> %s; }\n", name, tool, share, low, high >"many.dag"
+    printf "%s{\"node\": \"%s\", \"tool\": \"%s\", \"calls\": 2, \"mean_seconds\": %g, \"answers\": [{\"answer\": \"no\", \"count\": 1}, {\"answer\": \"yes\", \"count\": 1}]}\n",
+        any++ ? "," : "", name, tool, name == "dear" ? 1e-6 : 1e-9, "no", "yes" >"many.json"
+}
+BEGIN {
+    print "oracle many { start a0;" >"many.dag"; print "{\"oracle\": \"many\", \"nodes\": [" >"many.json"
+    for (i = 0; i < 24; i++)
+        node("a" i, "q0", i / 32, i < 23 ? "a" i + 1 : "dear", i < 23 ? "a" i + 1 : "dear")
+    node("dear", "q1", 0, "d0", "cheap"); node("cheap", "q2", 0, "d0", "b0")
+    for (i = 0; i < 24; i++)
+        node("b" i, "q0", i / 32, i < 23 ? "b" i + 1 : "d0", "d1")
+    print "}" >"many.dag"; print "]}" >"many.json"
+}'
+many() { "$dagc" -Wno-all --catalog own.dag "$@" --profile many.json many.dag; }
+check "too many ways to compare: no error, it stays, and why" says 'all questions stay as they are: some commute' many --dump=waves
+kept() { many --emit=text >ordered.dag && "$dagc" -Wno-all --catalog own.dag --emit=text many.dag | cmp - ordered.dag; }
+check "its graph is the one that was measured" kept
+
+# Readers of a term without levels commute, also where one reads it in an argument.
+cat >far.dag <<'END2'
+runtime "discussion.h" abi 7;
+type ratio = real "";
+term far : ratio in [0, inf];
+tool above(value : ratio, limit : ratio) question answers (no precise, yes precise) anywhere "Above?";
+tool away(limit : ratio) question answers (near precise, far precise) reads (far) anywhere "Far?";
+decision keep "";
+decision drop "";
+END2
+cat >reads.dag <<'END2'
+catalog "far.dag";
+oracle reads {
+  start above;
+  node above = above(value = far, limit = 4) { no -> away; yes -> drop; }
+  node away  = away(limit = 3)               { near -> keep; far -> drop; }
+}
+END2
+cat >reads.json <<'END2'
+{"oracle": "reads", "nodes": [
+ {"node": "above", "tool": "above", "calls": 9, "mean_seconds": 1e-6, "answers": [{"answer": "no", "count": 9}, {"answer": "yes", "count": 0}]},
+ {"node": "away", "tool": "away", "calls": 9, "mean_seconds": 1e-9, "answers": [{"answer": "near", "count": 1}, {"answer": "far", "count": 8}]}]}
+END2
+check "readers of a term without levels" says 'now before above' "$dagc" -Wno-all --dump=waves --profile reads.json reads.dag
+
 finish profile
