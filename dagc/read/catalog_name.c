@@ -24,9 +24,9 @@ static const char *past_blanks(const char *at, const char *end)
 const char *dag_named_catalog(struct dag *dag, const struct input *file)
 {
     static const char word[] = "catalog";
-    const char *at = file->bytes, *end = at + file->length;
-    if (at == NULL)
+    if (file->bytes == NULL) /* it cannot be read, which is told later */
         return NULL;
+    const char *end = file->bytes + file->length, *at = past_blanks(file->bytes, end);
     for (int depth = 0; at < end; at = past_blanks(at, end)) {
         if (*at == '"') {
             for (at++; at < end && *at != '"' && *at != '\n'; at++)
