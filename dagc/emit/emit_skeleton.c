@@ -143,6 +143,16 @@ static void print_runtime(struct skeleton *s)
 
 /* ---- the program */
 
+/* What the program calls its variable for a field: it has some of its own. */
+static const char *variable_of(struct dag *dag, const char *field)
+{
+    static const char *const own[] = {"d", "parameters", "decisions"};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(field, own[i]) == 0)
+            return dag_format(&dag->arena, "%s_", field);
+    return field;
+}
+
 static void print_program(struct skeleton *s)
 {
     struct dag *dag = s->dag;
@@ -160,12 +170,16 @@ static void print_program(struct skeleton *s)
     dag_print(out, "};\n    struct %s_parameters parameters;\n    struct %s_discussion d;\n", n, n);
     for (int i = 0; i < count; i++)
         if (first_of(fields, i) && fields[i].pointer)
-            dag_print(out, "    struct %s_%s %s;\n", n, fields[i].name, fields[i].name);
+            dag_print(out, "    struct %s_%s %s;\n", n, fields[i].name,
+                      variable_of(dag, fields[i].name));
     dag_print(out, "    memset(&d, 0, sizeof d);\n");
-    for (int i = 0; i < count; i++)
-        if (first_of(fields, i) && fields[i].pointer)
-            dag_print(out, "    memset(&%s, 0, sizeof %s);\n    d.%s = &%s;\n", fields[i].name,
-                      fields[i].name, fields[i].name, fields[i].name);
+    for (int i = 0; i < count; i++) {
+        if (!first_of(fields, i) || !fields[i].pointer)
+            continue;
+        const char *variable = variable_of(dag, fields[i].name);
+        dag_print(out, "    memset(&%s, 0, sizeof %s);\n    d.%s = &%s;\n", variable, variable,
+                  fields[i].name, variable);
+    }
     dag_print(out,
               "    %s_defaults(&parameters);\n"
               "    printf(\"%%s\\n\", decisions[%s_%s(&parameters, &d)]);\n    return 0;\n}\n",

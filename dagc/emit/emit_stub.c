@@ -61,6 +61,17 @@ static void print_includes(const struct dag *dag, struct text *out, const struct
     }
 }
 
+/* What C calls a parameter: a catalog may call it what is a word of C, or a name of the function's
+ * own. */
+static void print_parameter(struct text *out, const struct parameter *parameter)
+{
+    static const char *const own[] = {"d", "block", "at", "count", "answers"};
+    int taken = dag_is_c_word(parameter->name);
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        taken |= strcmp(parameter->name, own[i]) == 0;
+    dag_print(out, "%s%s", parameter->name, taken ? "_" : "");
+}
+
 static void print_tool(const struct dag *dag, struct text *out, const struct tool *tool)
 {
     dag_print(out, "/* %s - %s: ", tool->header,
@@ -85,11 +96,15 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     dag_print(out, "\nTOOL enum %s_answer tool_%s(struct discussion *d", tool->name, tool->name);
     for (int i = 0; i < tool->parameters.count; i++) {
         const struct parameter *p = &dag->parameters[tool->parameters.first + i];
-        dag_print(out, ", %s %s", dag_c_type(dag, p->type), p->name);
+        dag_print(out, ", %s ", dag_c_type(dag, p->type));
+        print_parameter(out, p);
     }
     dag_print(out, ")\n{\n    (void)d;\n");
-    for (int i = 0; i < tool->parameters.count; i++)
-        dag_print(out, "    (void)%s;\n", dag->parameters[tool->parameters.first + i].name);
+    for (int i = 0; i < tool->parameters.count; i++) {
+        dag_print(out, "    (void)");
+        print_parameter(out, &dag->parameters[tool->parameters.first + i]);
+        dag_print(out, ";\n");
+    }
     dag_print(out, "    /* The answers:\n");
     for (int i = 0; i < tool->answers.count; i++) {
         const struct answer *answer = &dag->answers[tool->answers.first + i];
@@ -163,14 +178,18 @@ static void print_tool_wave(const struct dag *dag, struct text *out, const struc
     print_wave_head(out, "TOOL_WAVE", tool->wave, tool->header, "wave_", tool->name);
     for (int i = 0; i < tool->parameters.count; i++) {
         const struct parameter *p = &dag->parameters[tool->parameters.first + i];
-        dag_print(out, ", const %s *%s", dag_c_type(dag, p->type), p->name);
+        dag_print(out, ", const %s *", dag_c_type(dag, p->type));
+        print_parameter(out, p);
     }
     dag_print(out,
               ", unsigned char *answers)\n{\n    int k_;\n    for (k_ = 0; k_ < count; k_++)\n"
               "        answers[k_] = (unsigned char)tool_%s(&block[at[k_]]",
               tool->name);
-    for (int i = 0; i < tool->parameters.count; i++)
-        dag_print(out, ", %s[k_]", dag->parameters[tool->parameters.first + i].name);
+    for (int i = 0; i < tool->parameters.count; i++) {
+        dag_print(out, ", ");
+        print_parameter(out, &dag->parameters[tool->parameters.first + i]);
+        dag_print(out, "[k_]");
+    }
     dag_print(out, ");\n}\n\n#endif\n");
 }
 

@@ -45,7 +45,7 @@ term two     : pair_of levels (rough < fine) header "tools/in_one.h" "a vector w
 
 tool bare() question answers (yes, no);
 tool kinds() question answers (sure precise, about approximate, what other, unsaid) "Every kind of answer.";
-tool given(a : number, b : whole, c : delay, d_ : items) question answers (yes precise, no precise) reads (plain, both) writes (both >= high) wave "No range, no default.";
+tool given(int : number, count : whole, at : delay, d : items) question answers (yes precise, no precise) reads (plain, both) writes (both >= high) wave "No range, no default; names that C or a stub has taken.";
 tool ranged(a : number in [0, 1], b : whole = 3, c : force = 2.5 in [-inf, 9], d_ : items = 4 in [1, 100] "told") question
      answers (under approximate, over approximate) reads (plain, graded >= bound) "Ranges, defaults, words.";
 tool limits(least : number = 0.5 in [0, 1], most : delay = 1 in [0, inf]) question
@@ -69,6 +69,7 @@ fact alone      : number = "d->alone";
 fact left.size  : length in [0, inf] = "d->left->size" "through a pointer";
 fact left.many  : items in [0, 9] = "(int)d->left->many[2]";
 fact right.size : length = "d->right.size";
+fact d.size     : length in [0, inf] = "d->d->size" "called as the program's own";
 fact list       : delay in [0, inf] = "d->list[1]";
 fact total      : force in [0, inf] fixed = "d->sum->force" "the same for all";
 fact made       : number = "d->left->size + d->right.size";
@@ -86,7 +87,7 @@ oracle whole "asks every tool" {
   node n2  = make() { done -> n3; }
   node n3  = make_exact() { done -> n4; }
   node n4  = kinds() { sure -> n5; about -> n6; what -> stop; unsaid -> n13; }
-  node n5  = given(a = own, b = twin, c = list, d_ = left.many) { yes -> n6; no -> keep; }
+  node n5  = given(int = own, count = twin, at = list, d = left.many) { yes -> n6; no -> keep; }
   node n6  = ranged(a = share, c = min(9, min(total + set, graded.exact))) { under -> n7; over -> stop; }
   node n7  = ranged(a = min(1, abs(plain * both.high * alone)), b = twin, d_ = most) { under -> n8; over -> keep; }
   node n8  = tell(n = min(3, twin)) { done -> n9; }
@@ -94,7 +95,7 @@ oracle whole "asks every tool" {
   node n10 = limits(least = share, most = late) { left -> n11; right -> cut_right; both -> n12; neither -> keep; }
   node n11 = later(least = share) { left -> n12; right -> cut_left; }
   node n12 = always() { go -> n13; stay -> keep; }
-  node n13 = given(a = made, b = 3, c = bounded, d_ = min(9, max(1, counted.all))) { yes -> n14; no -> keep; }
+  node n13 = given(int = made, count = 3, at = bounded, d = min(9, max(1, counted.all))) { yes -> n14; no -> keep; }
   node n14 = always() { go -> cut_both; stay -> stop; }
 }
 END_OF_GRAPH
