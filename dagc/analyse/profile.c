@@ -5,10 +5,12 @@
  * SPDX-License-Identifier: MIT */
 #include "analyse/profile.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "read/json_value.h"
 
+enum { LIST_PAIRS = 256 }; /* that a list holds at the most: PAIRS of emit/emit_wave.c */
 const int dag_profile_widths[PROFILE_WIDTHS] = {4, 8, 16};
 
 struct reading {
@@ -119,6 +121,30 @@ static const double *read_answers(struct reading *r, const struct node *node,
     return counts;
 }
 
+/* Do the counts agree with each other? What is shown are their quotients. */
+static int agrees(struct reading *r, const struct node *node, const struct measured *measured,
+                  const struct json_value *value)
+{
+    double sum = 0, most = measured->lists > 0 ? LIST_PAIRS * measured->lists : INFINITY;
+    for (int i = 0; i < node->arcs.count; i++)
+        sum += measured->answers[i];
+    if (sum != measured->calls) {
+        dag_error(r->dag, value->where, "node %s was called %.15g times and answered %.15g times",
+                  node->name, measured->calls, sum);
+        return 0;
+    }
+    for (int k = 0; k < PROFILE_WIDTHS; k++)
+        if (measured->vectors[k] > 0)
+            most = fmin(most, dag_profile_widths[k] * measured->vectors[k]);
+    if (measured->calls <= most)
+        return 1;
+    dag_error(r->dag, value->where,
+              "node %s was called %.15g times, and its lists or vectors hold %.15g pairs at the "
+              "most",
+              node->name, measured->calls, most);
+    return 0;
+}
+
 static int read_node(struct reading *r, const struct json_value *value)
 {
     const int place = find_place(r, value);
@@ -134,7 +160,9 @@ static int read_node(struct reading *r, const struct json_value *value)
         measured->vectors[k] =
             have_number(vectors, dag_format(&r->dag->arena, "%d", dag_profile_widths[k]));
     measured->answers = read_answers(r, &r->dag->nodes[index], value);
-    return measured->calls < 0 || measured->answers == NULL ? -1 : 0;
+    if (measured->calls < 0 || measured->answers == NULL)
+        return -1;
+    return agrees(r, &r->dag->nodes[index], measured, value) ? 0 : -1;
 }
 
 struct profile *dag_read_profile(struct dag *dag, const struct input *input)

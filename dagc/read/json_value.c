@@ -6,6 +6,7 @@
 #include "read/json_value.h"
 
 #include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 enum { DEPTH_MOST = 64 };
@@ -124,6 +125,10 @@ static struct json_value *read_number(struct reader *r)
     r->at = (int)(at - r->text);
     struct json_value *value = new_value(r, JSON_NUMBER, from);
     value->number = strtod(r->text + from, NULL);
+    if (isinf(value->number)) {
+        r->at = from;
+        return refuse(r, "a number below 1.8e308");
+    }
     return value;
 }
 

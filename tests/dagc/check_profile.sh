@@ -29,7 +29,7 @@ profile() { # NANOSECONDS_OF_FIRST: 1000 pairs, half of them end at `second` if 
         split("first second third fourth fifth last", n); split("dear cheap some notes looks can_split", t)
         printf "{\"oracle\": \"rows\",\n \"nodes\": ["
         for (i = 1; i <= 6; i++) {
-            calls = i == 1 ? 1000 : yes; yes = calls * (i == 2 ? .5 : .9)
+            calls = i == 1 ? 1000 : yes; yes = int(calls * (i == 2 ? .5 : .9))
             printf "%s\n  {\"node\": \"%s\", \"tool\": \"%s\", \"calls\": %d, \"mean_seconds\": %g, \"lists\": 8,\n", (i > 1 ? "," : ""),
                 n[i], t[i], calls, (i == 1 ? first : 10) * 1e-9
             printf "   \"vectors\": {\"4\": %d, \"8\": %d, \"16\": %d},\n", calls / 4 + 8, calls / 8 + 8, calls / 16 + 8
@@ -78,6 +78,10 @@ sed 's/"count": 100}/"count": -1}/' dear.json >negative.json
 head -n 5 dear.json >cut.json
 sed 's/"third"/"second"/' dear.json >twice.json
 sed '2s/.*/ "node": 12e,/' dear.json >number.json
+sed 's/"calls": 1000/"calls": 1001/' dear.json >sum.json
+sed 's/"4": 258/"4": 249/' dear.json >full.json
+sed 's/"lists": 8/"lists": 3/' dear.json >lists.json
+sed 's/"mean_seconds": 1e-07/"mean_seconds": 1e999/' dear.json >large.json
 awk 'BEGIN { for (i = 0; i < 100000; i++) printf "[" }' >deep.json
 printf '"\\u00e9\\q"' >escape.json
 check "of another oracle" refused 'other.json:1:12: error: this is a profile of oracle other, not of rows' other.json
@@ -90,6 +94,10 @@ check "with negative counts" refused 'negative.json:5:42: error: "count" should 
 check "with a node twice" refused 'twice.json:9:12: error: node second a second time' twice.json
 check "cut off" refused "cut.json:6:1: error: the file ends where a value" cut.json
 check "no number" refused 'number.json:2:10: error: a number should be here' number.json
+check "more calls than answers" refused 'sum.json:3:3: error: node first was called 1001 times and answered 1000 times' sum.json
+check "more pairs than fit in vectors" refused 'full.json:3:3: error: node first was called 1000 times, and its lists or vectors hold 996 pairs' full.json
+check "more pairs than fit in lists" refused 'lists.json:3:3: error: node first was called 1000 times, and its lists or vectors hold 768 pairs' lists.json
+check "an infinite number" refused 'large.json:3:68: error: a number below 1.8e308 should be here' large.json
 check "too deep" refused 'deep.json:1:65: error: more than 64 lists and objects in each other' deep.json
 check "a wrong escape" refused 'escape.json:1:8: error: an escape of JSON should be here' escape.json
 check "that is not there" refused 'cannot read none.json' none.json
