@@ -8,6 +8,9 @@
  * Then a, asked later of fewer pairs, and b, asked sooner of more, answer as they would have, and
  * each pair goes to T or passes as before.
  *
+ * Where T leads to a subdivision, and a's answers may be what allows that, a stays first: no path
+ * would hold such an answer else, and the graph, written out, would be refused.
+ *
  * A term of several levels speaks against it even if both only read it: whoever reads it may leave
  * it finer than it was, and a reader that takes what it finds sees that.
  *
@@ -177,6 +180,37 @@ static const char *shows(struct dag *dag, const struct node *node)
     return left != NULL ? left : leaves_term(dag, node->name, node->reads);
 }
 
+/* May what the tool answers be what allows a subdivision? */
+static int may_allow(const struct dag *dag, int tool)
+{
+    for (int i = 0; i < dag->tool_count; i++)
+        if (dag->tools[i].after.name != NULL && dag->tools[i].after_index == tool)
+            return 1;
+    return dag->tools[tool].guards.count > 0;
+}
+
+/* Is there a way from the target to a subdivision? */
+static int leads_to_split(const struct ordering *o, const struct target *target)
+{
+    const struct dag *dag = o->dag;
+    const int count = o->oracle->order.count;
+    unsigned char *behind = dag_alloc(&o->dag->arena, (size_t)count + 1);
+    if (target->kind == TARGET_DECISION)
+        return dag->decisions[target->index].subdivides;
+    behind[dag->nodes[target->index].order] = 1;
+    for (int i = 0; i < count; i++) {
+        const int node = dag->order[o->oracle->order.first + i];
+        for (int k = 0; behind[i] && k < dag->nodes[node].arcs.count; k++) {
+            const struct target *to = &arc_of(o, node, k)->target;
+            if (to->kind == TARGET_DECISION && dag->decisions[to->index].subdivides)
+                return 1;
+            if (to->kind == TARGET_NODE)
+                behind[dag->nodes[to->index].order] = 1;
+        }
+    }
+    return 0;
+}
+
 /* Why not; NULL: it is proved that they may. */
 static const char *why_not(const struct ordering *o, const struct row *row)
 {
@@ -188,6 +222,9 @@ static const char *why_not(const struct ordering *o, const struct row *row)
         why = shows(dag, b);
     if (why == NULL && (dag_may_change(dag, a, b, 0) || dag_may_change(dag, b, a, 0)))
         why = "one may change what the other answers";
+    if (why == NULL && may_allow(dag, a->tool) && leads_to_split(o, &row->fail))
+        why = dag_format(&dag->arena, "subdivisions that %s allows would come behind %s alone",
+                         dag->tools[a->tool].name, b->name);
     if (why == NULL && !second->anywhere)
         why = dag_format(&dag->arena, "%s may have no answer where %s sends pairs elsewhere",
                          second->name, a->name);

@@ -197,4 +197,31 @@ cat >reads.json <<'END2'
 END2
 check "readers of a term without levels" says 'now before above' "$dagc" -Wno-all --dump=waves --profile reads.json reads.dag
 
+# What allows a subdivision stays before it, also where all answers allow it.
+cat >guard.dag <<'END2'
+runtime "discussion.h" abi 7;
+type count = integer "";
+tool guard(least : count = 1 in [1, 9]) question answers (one precise, both precise) guards (one | both -> split) by (least) anywhere "Which?";
+tool cheap() question answers (no precise, yes precise) anywhere "Costs little.";
+decision keep "";
+decision split subdivides "";
+END2
+cat >guarded.dag <<'END2'
+catalog "guard.dag";
+oracle guarded {
+  start a;
+  node a = guard() { one -> split; both -> b; }
+  node b = cheap() { yes -> split; no -> keep; }
+}
+END2
+cat >guarded.json <<'END2'
+{"oracle": "guarded", "nodes": [
+ {"node": "a", "tool": "guard", "calls": 9, "mean_seconds": 1e-6, "answers": [{"answer": "one", "count": 1}, {"answer": "both", "count": 8}]},
+ {"node": "b", "tool": "cheap", "calls": 8, "mean_seconds": 1e-9, "answers": [{"answer": "no", "count": 1}, {"answer": "yes", "count": 7}]}]}
+END2
+check "what allows a subdivision stays before it" says 'as it is; subdivisions that guard allows would come behind b alone' \
+    "$dagc" --dump=waves --profile guarded.json guarded.dag
+sed 's/one -> split; both/one -> keep; both/; s/yes -> split; no -> keep/yes -> keep; no -> split/' guarded.dag >passes.dag
+check "but not where only those who pass are split" says 'now before a' "$dagc" --dump=waves --profile guarded.json passes.dag
+
 finish profile
