@@ -55,6 +55,7 @@ nothing seen is nothing there | runtime/engine/reflected_light.c | s/        \*v
 faces are surer than all light | runtime/engine/dim_belief.h | s/variance + d->shared \* light/variance + 0 * d->shared * light/ | runtime/check_unseen_light
 what nobody has found light on is dark | runtime/engine/dim_belief.h | s/light > 0 \&\& variance/variance/ | runtime/check_unseen_light
 planes prove nothing | runtime/engine/lights_reach.c | s/^    return reach;/    return 1;/ | runtime/check_unseen_light
+all colours are one | runtime/engine/lights_reach.c | s/(answers(p, white\[j\], i) \&\& /(/ | runtime/check_unseen_light
 one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - left)/ | runtime/check_dim_faces
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)paths_for(d, p, goal);/(void)goal;/ | runtime/check_dim_faces

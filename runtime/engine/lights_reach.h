@@ -5,8 +5,8 @@
 
 #include "engine/problem.h"
 
-/* 0: no face that reflects is in front of one that emits, and that one in front of it; so nothing
- * is reflected once, nor ever. 1: it may be. */
+/* 0: no face is in front of one that emits in a band in which it reflects, and that one in front of
+ * it; so nothing is reflected once, nor ever. 1: it may be. */
 int lights_reach(const struct problem *p, const struct hierarchy *h);
 
 #endif

@@ -204,8 +204,8 @@ void measured_print(const struct measured *m, uint32_t polygons, int no_links)
         return;
     }
     if (!(e->reflected > 0)) {
-        printf("error     none: no light is reflected, as no lamp and no face that reflects look "
-               "at each other\n");
+        printf("error     none: no light is reflected, as no lamp and no face that reflects its "
+               "light look at each other\n");
         return;
     }
     fputs("error     reflected light per face: off by ", stdout);

@@ -123,6 +123,27 @@ START_TEST(test_away)
 }
 END_TEST
 
+/* A red lamp in a room that reflects green and blue: nothing is reflected, for sure. With a trace
+ * of blue in the lamp something is. */
+START_TEST(test_other_colour)
+{
+    const struct solve_options options = quick(2);
+    struct scene scene;
+    struct solve s;
+    const char *cause;
+    room_with_hole(&scene, 1, 0);
+    scene.bands = 3;
+    for (int k = 0; k < 3; k++) {
+        scene.materials[0].reflectance[k] = k ? 0.5 : 0;
+        scene.materials[1].exitance[k] = k == 0 ? 1 : _i && k == 2 ? 1e-6 : 0;
+    }
+    ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
+    ck_assert_int_eq(s.problem.reflects, _i);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* So many lamps, all black, do not take their square to tell that nothing is reflected. */
 START_TEST(test_black)
 {
@@ -150,6 +171,7 @@ int main(void)
     tcase_add_loop_test(tests, test_few, 0, 2);
     tcase_add_test(tests, test_window);
     tcase_add_test(tests, test_away);
+    tcase_add_loop_test(tests, test_other_colour, 0, 2);
     tcase_add_test(tests, test_black);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
