@@ -230,6 +230,14 @@ static void know_covered(struct exchange_loss *way, double covered, int side)
         way->backs = way->backs - more > off ? way->backs - more : 0;
 }
 
+/* Do few points alone tell what of the row's light is covered and what goes elsewhere? A point is
+ * covered or not, so that they tell it to one of them, a sixteenth of a part. */
+static int is_guessed(const struct exchange_loss *way, double known)
+{
+    const int is_known = known > 0 && !(fabs(way->covered - known) > 0);
+    return way->covered > 0 && !is_known && (way->leaves > 0 || way->backs > 0);
+}
+
 /* A row that lacks more than the tolerance, and than one point stands for, where few points show no
  * way out, may have something small stand on it, or see a way out that is small or far. */
 static void ask_rows(const void *asking, size_t from, size_t to)
@@ -247,6 +255,10 @@ static void ask_rows(const void *asking, size_t from, size_t to)
         }
         *way = ask_row(a->exchange, (uint32_t)i, environment_coarse);
         know_covered(way, covered, environment_coarse.side);
+        if (is_guessed(way, covered)) {
+            *way = ask_row(a->exchange, (uint32_t)i, environment_middle);
+            know_covered(way, covered, environment_middle.side);
+        }
         if (!is_closed(way) || !(1 - a->share[i] > fmax(cell, a->options->tolerance)))
             continue;
         *way = ask_row(a->exchange, (uint32_t)i, environment_fine);

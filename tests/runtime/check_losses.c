@@ -370,6 +370,37 @@ START_TEST(test_box)
 }
 END_TEST
 
+/* A block of the plan of an L, without a bottom, on a floor under the sky: the floor sees the sky
+ * but for what the block covers, which few points would tell to a sixteenth, and what it hides. */
+START_TEST(test_block)
+{
+    static const double plan[6][2] = {{.15, .15}, {.6, .15}, {.6, .35},
+                                      {.35, .35}, {.35, .7}, {.15, .7}};
+    static const uint32_t top[2][4] = {{0, 1, 2, 3}, {3, 4, 5, 0}};
+    struct shape s;
+    put_cube(&s);
+    s.count = 1;
+    for (uint32_t i = 0; i < 12; i++) {
+        s.position[8 + i][0] = plan[i % 6][0];
+        s.position[8 + i][1] = plan[i % 6][1];
+        s.position[8 + i][2] = i < 6 ? 0 : 0.25;
+    }
+    for (uint32_t i = 0; i < 6; i++) {
+        const uint32_t next = (i + 1) % 6, side[4] = {8 + i, 8 + next, 14 + next, 14 + i};
+        memcpy(s.corner[s.count++], side, sizeof side);
+    }
+    for (uint32_t i = 0; i < 2; i++, s.count++)
+        for (int k = 0; k < 4; k++)
+            s.corner[s.count][k] = 14 + top[i][k];
+    compute(&s, RAD_CLOSURE_NONE);
+    ck_assert_double_eq_tol(s.loss[0].covered, 0.16, 4e-3);
+    ck_assert_double_eq_tol(s.loss[0].sky, 0.7062, 4e-3); /* by 4e6 rays */
+    ck_assert_double_eq(s.loss[0].backs, 0);
+    ck_assert_double_eq_tol(s.sum[0] + s.loss[0].sky + s.loss[0].covered, 1, 1e-12);
+    close_shape(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("losses");
@@ -379,6 +410,7 @@ int main(void)
     tcase_add_test(rows, test_chink);
     tcase_add_test(rows, test_slab);
     tcase_add_test(rows, test_box);
+    tcase_add_test(rows, test_block);
     tcase_add_test(rows, test_sky);
     tcase_add_test(rows, test_turned);
     tcase_add_test(rows, test_both);
