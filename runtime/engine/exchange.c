@@ -230,12 +230,18 @@ static void know_covered(struct exchange_loss *way, double covered, int side)
         way->backs = way->backs - more > off ? way->backs - more : 0;
 }
 
-/* Do few points alone tell what of the row's light is covered and what goes elsewhere? A point is
- * covered or not, so that they tell it to one of them, a sixteenth of a part. */
-static int is_guessed(const struct exchange_loss *way, double known)
+/* Do few points alone tell what of row i's light is covered and what goes elsewhere? A point is
+ * covered or not, so that they tell it to one of them, a sixteenth of a part; and where none is,
+ * what stands between them shows in that a single ray from one of many meets a back. */
+static int is_guessed(const struct exchange *x, uint32_t i, const struct exchange_loss *way,
+                      double known)
 {
     const int is_known = known > 0 && !(fabs(way->covered - known) > 0);
-    return way->covered > 0 && !is_known && (way->leaves > 0 || way->backs > 0);
+    if (is_known || is_closed(way))
+        return 0;
+    if (way->covered > 0)
+        return way->leaves > 0 || way->backs > 0;
+    return !(way->backs > 0) && ask_row(x, i, environment_glance).covered > 0;
 }
 
 /* A row that lacks more than the tolerance, and than one point stands for, where few points show no
@@ -255,7 +261,7 @@ static void ask_rows(const void *asking, size_t from, size_t to)
         }
         *way = ask_row(a->exchange, (uint32_t)i, environment_coarse);
         know_covered(way, covered, environment_coarse.side);
-        if (is_guessed(way, covered)) {
+        if (is_guessed(a->exchange, (uint32_t)i, way, covered)) {
             *way = ask_row(a->exchange, (uint32_t)i, environment_middle);
             know_covered(way, covered, environment_middle.side);
         }

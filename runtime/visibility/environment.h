@@ -17,12 +17,14 @@ struct environment {
 /* Points in side x side cells, each with so many rays: in the middles of the cells and of the rays'
  * rings, or anywhere in them, as rows may all miss a strip along them. What is smaller than a cell
  * may be missed. Few points with many rays share out well what goes far away, many with few find
- * what small feet cover, and some with few how much is covered where it is much. */
+ * what small feet cover, some with few how much is covered where it is much, and as many with one
+ * whether anything is. */
 struct environment_grid {
     int side, directions, anywhere;
 };
 static const struct environment_grid environment_coarse = {4, 64, 0},
                                      environment_middle = {32, 16, 1},
+                                     environment_glance = {32, 1, 1},
                                      environment_fine = {64, 16, 1};
 
 /* Thread-safe. The result depends on the surface, the scene and the points alone. */

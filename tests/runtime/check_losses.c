@@ -371,18 +371,23 @@ START_TEST(test_box)
 END_TEST
 
 /* A block of the plan of an L, without a bottom, on a floor under the sky: the floor sees the sky
- * but for what the block covers, which few points would tell to a sixteenth, and what it hides. */
+ * but for what the block covers and hides. Of so large a one few points would tell what it covers
+ * to a sixteenth; so small a one stands between them. */
+static const struct {
+    double plan[6][2], covered, sky; /* the sky by 4e6 rays */
+} block[] = {
+    {{{.15, .15}, {.6, .15}, {.6, .35}, {.35, .35}, {.35, .7}, {.15, .7}}, 0.16, 0.7062},
+    {{{.14, .14}, {.36, .14}, {.36, .25}, {.25, .25}, {.25, .36}, {.14, .36}}, 0.0363, 0.9052}};
+
 START_TEST(test_block)
 {
-    static const double plan[6][2] = {{.15, .15}, {.6, .15}, {.6, .35},
-                                      {.35, .35}, {.35, .7}, {.15, .7}};
     static const uint32_t top[2][4] = {{0, 1, 2, 3}, {3, 4, 5, 0}};
     struct shape s;
     put_cube(&s);
     s.count = 1;
     for (uint32_t i = 0; i < 12; i++) {
-        s.position[8 + i][0] = plan[i % 6][0];
-        s.position[8 + i][1] = plan[i % 6][1];
+        s.position[8 + i][0] = block[_i].plan[i % 6][0];
+        s.position[8 + i][1] = block[_i].plan[i % 6][1];
         s.position[8 + i][2] = i < 6 ? 0 : 0.25;
     }
     for (uint32_t i = 0; i < 6; i++) {
@@ -393,8 +398,8 @@ START_TEST(test_block)
         for (int k = 0; k < 4; k++)
             s.corner[s.count][k] = 14 + top[i][k];
     compute(&s, RAD_CLOSURE_NONE);
-    ck_assert_double_eq_tol(s.loss[0].covered, 0.16, 4e-3);
-    ck_assert_double_eq_tol(s.loss[0].sky, 0.7062, 4e-3); /* by 4e6 rays */
+    ck_assert_double_eq_tol(s.loss[0].covered, block[_i].covered, 4e-3);
+    ck_assert_double_eq_tol(s.loss[0].sky, block[_i].sky, 4e-3);
     ck_assert_double_eq(s.loss[0].backs, 0);
     ck_assert_double_eq_tol(s.sum[0] + s.loss[0].sky + s.loss[0].covered, 1, 1e-12);
     close_shape(&s);
@@ -410,7 +415,7 @@ int main(void)
     tcase_add_test(rows, test_chink);
     tcase_add_test(rows, test_slab);
     tcase_add_test(rows, test_box);
-    tcase_add_test(rows, test_block);
+    tcase_add_loop_test(rows, test_block, 0, sizeof block / sizeof *block);
     tcase_add_test(rows, test_sky);
     tcase_add_test(rows, test_turned);
     tcase_add_test(rows, test_both);
