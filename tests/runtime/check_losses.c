@@ -406,6 +406,37 @@ START_TEST(test_block)
 }
 END_TEST
 
+/* A box without a bottom at the long side of a floor that is a triangle: what it covers does not
+ * depend on the corner that the triangle is told from. Points that crowd at one would say .20. */
+START_TEST(test_triangle)
+{
+    static const double floor[3][2] = {{1, 0}, {1, 0.5}, {0, 0.5}}, low = 0.015, high = 0.345;
+    struct shape s;
+    for (uint32_t first = 0; first < 3; first++) {
+        put_cube(&s);
+        for (uint32_t i = 0; i < 8; i++) {
+            s.position[8 + i][0] = i % 4 == 1 || i % 4 == 2 ? high : low;
+            s.position[8 + i][1] = i % 4 >= 2 ? 0.6785 : 0.4535;
+            s.position[8 + i][2] = i < 4 ? 0 : 0.2;
+        }
+        for (uint32_t f = 1; f < 6; f++)
+            for (int i = 0; i < 4; i++) /* fronts outside */
+                s.corner[f][i] = 8 + cube[f][3 - i];
+        for (uint32_t i = 0; i < 4; i++) {
+            const double *at = floor[(i + first) % 3];
+            s.position[i][0] = i < 3 ? at[0] : s.position[2][0];
+            s.position[i][1] = i < 3 ? at[1] : s.position[2][1];
+            s.position[i][2] = 0;
+            s.corner[0][i] = i < 3 ? i : 2;
+        }
+        compute(&s, RAD_CLOSURE_NONE);
+        ck_assert_double_eq_tol(s.loss[0].covered, 0.0553, 4e-3); /* 1e6 rays, as the sky */
+        ck_assert_double_eq_tol(s.loss[0].sky, 0.8944, 4e-3);
+        close_shape(&s);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("losses");
@@ -415,6 +446,7 @@ int main(void)
     tcase_add_test(rows, test_chink);
     tcase_add_test(rows, test_slab);
     tcase_add_test(rows, test_box);
+    tcase_add_test(rows, test_triangle);
     tcase_add_loop_test(rows, test_block, 0, sizeof block / sizeof *block);
     tcase_add_test(rows, test_sky);
     tcase_add_test(rows, test_turned);
