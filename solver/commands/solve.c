@@ -173,9 +173,9 @@ static int has_lamp(const struct surfaces *s)
     return has;
 }
 
-/* More light than there can be, or none. */
+/* More light than there can be, or none, or none that meets anything. */
 static void warn_of_power(const struct options *o, const struct surfaces *surfaces,
-                          const struct RadReport *r)
+                          const struct RadReport *r, const struct measured *m)
 {
     if (r->emitted > 0 && r->absorbed > (1 + GAIN_TOLD) * r->emitted)
         report_warning(o->scene, 0,
@@ -189,6 +189,16 @@ static void warn_of_power(const struct options *o, const struct surfaces *surfac
                              "these are turned the wrong way, turn them, or take --two-sided"
                            : "no face emits, so all is dark; give a face a material that does: Ke "
                              "above 0 in an .mtl file");
+    /* a room turned inside out; light that ends on backs, or that too few have looked for, is told
+     * by others */
+    const struct RadErrorReport *e = &m->error;
+    if (r->emitted > 0 && !(r->absorbed > 0) && m->measured && !(e->unseen > 0) && !(e->backs > 0)
+        && !o->quiet)
+        report_warning(
+            o->scene, 0,
+            "no light meets the front of a face: if faces are turned the wrong way, turn "
+            "them (seen from the front, corners run counter-clockwise), or take "
+            "--two-sided");
 }
 
 /* Solve by the oracle and write the outputs. Returns the exit status. */
@@ -232,7 +242,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
         return status < 0 ? 1 : status;
     radGetReport(s.solution, &s.report);
     const int unfinished = solved_status(&s.report, o->scene);
-    warn_of_power(o, &surfaces, &s.report);
+    warn_of_power(o, &surfaces, &s.report, &measured);
     if (!o->quiet) {
         measured_warn(&measured, o->scene);
         power_promise_warn(&promise, o->scene);

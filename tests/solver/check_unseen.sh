@@ -23,7 +23,7 @@ BEGIN {
 END2
 awk -f "$top/tests/solver/box.awk" -f room.awk >room.obj
 
-count=$((count + 12))
+count=$((count + 14))
 "$radiosity" solve room.obj --json json >out 2>err || failed "solve: $(tail -n 1 err)"
 grep -q '^error     not known: none of .* particles was reflected; less than about .* W is$' out || failed "summary: $(grep '^error' out)"
 grep -q 'warning: none of .* nothing is known but that' err || failed "warning: $(cat err)"
@@ -44,9 +44,11 @@ status=$?
 sed 's/^f 1 2 3 4$/f 4 3 2 1/' room.obj >away.obj
 "$radiosity" solve away.obj >out 2>err
 grep -q '^error     none: no light is reflected, as no lamp and no face that reflects its light look at each other$' out || failed "a lamp turned away: $(grep '^error' out)"
+grep -q 'warning: no light meets the front of a face: if faces are turned the wrong way, turn them' err || failed "a lamp turned away, warning: $(cat err)"
 # nor are walls of another colour than the lamp
 sed '/^Kd [.]5/s/.*/Kd 0 .5 .5/; /^Ke/s/.*/Ke 1000 0 0/' room.mtl >other.mtl
 sed 's/room[.]mtl/other.mtl/' room.obj >other.obj
 "$radiosity" solve other.obj >out 2>err
 grep -q '^error     none: no light is reflected' out || failed "walls of another colour: $(grep '^error' out)"
+! grep -q 'no light meets' err || failed "walls of another colour, warning: $(cat err)"
 finish unseen
