@@ -22,6 +22,14 @@ check "each marker has a generator, and each generator one marker" diff marked m
     done
 done) >dangling
 check "links lead to files" sh -c '! grep . dangling'
+# A heading's anchor: small letters, blanks as hyphens, of other signs hyphens alone.
+(cd "$top" && find README.md ARCHITECTURE.md examples -name '*.md' | while read -r page; do
+    grep -o '](\([^):]*\)#[^)]*' "$page" | sed 's/^](//' | while IFS='#' read -r to anchor; do
+        if [ -n "$to" ]; then to=$(dirname "$page")/$to; else to=$page; fi
+        sed -n 's/^##* //p' "$to" | tr A-Z a-z | sed 's/[^a-z0-9 _-]//g; s/ /-/g' | grep -qx -- "$anchor" || echo "$page: $to#$anchor"
+    done
+done) >dangling
+check "and to headings" sh -c '! grep . dangling'
 
 # ---- the machine, on files of its own
 mkdir makers
