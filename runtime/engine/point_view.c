@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/point_view.h"
+#include "hierarchy/polygon.h"
 #include "kernel/lambert.h"
 #include "util/array.h"
 
@@ -83,21 +84,11 @@ void point_view_close(struct point_view *v)
 static void see_face(const struct watcher *w, uint32_t face, struct seen_face *s)
 {
     const struct face *f = &w->view->scene->faces[face];
-    double sum[3] = {0}, a[3], b[3], c[3];
     s->n = (int)f->vertices;
     for (int i = 0; i < s->n; i++)
         sub3(s->p[i], f->vertex[i], w->x);
-    for (int i = 2; i < s->n; i++) {
-        sub3(a, s->p[i - 1], s->p[0]);
-        sub3(b, s->p[i], s->p[0]);
-        cross3(c, a, b);
-        for (int k = 0; k < 3; k++)
-            sum[k] += c[k];
-    }
-    double size = length3(sum);
+    (void)polygon_normal(s->p, f->vertices, s->normal);
     s->height = 0;
-    for (int k = 0; k < 3; k++)
-        s->normal[k] = size > 0 ? sum[k] / size : 0;
     for (int i = 0; i < s->n; i++)
         s->height -= dot3(s->normal, s->p[i]) / s->n;
 }
