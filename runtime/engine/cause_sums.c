@@ -75,13 +75,8 @@ void cause_sums_join(struct cause_sums *to, const struct cause_sums *from)
 /* The mean of replicates over `whole`, and its 95 % interval. */
 static struct RadMeasure measure(const double value[REPLICATES], double whole)
 {
-    double mean = 0, square = 0;
-    for (int r = 0; r < REPLICATES; r++)
-        mean += value[r] / REPLICATES;
-    for (int r = 0; r < REPLICATES; r++)
-        square += (value[r] - mean) * (value[r] - mean);
-    double half = REPLICATES_T * sqrt(square / (REPLICATES * (REPLICATES - 1))) / whole;
-    mean /= whole;
+    double variance, mean = replicates_mean(value, &variance) / whole;
+    double half = REPLICATES_T * sqrt(variance) / whole;
     return (struct RadMeasure){mean, mean - half, mean + half};
 }
 

@@ -152,16 +152,13 @@ static void find_errors(struct judged *j)
 static double variance_of_sum(const struct judged *j)
 {
     const struct polygon_counts *c = j->c;
-    double sum[REPLICATES] = {0}, mean = 0, differ = 0;
+    double sum[REPLICATES] = {0}, variance;
     for (int r = 0; r < REPLICATES; r++)
         for (size_t i = 0; i < c->values; i++)
             sum[r] += j->weight[i] * c->replicate[(size_t)r * c->values + i];
     polygon_rows_sum(&c->rows, sum, REPLICATES);
-    for (int r = 0; r < REPLICATES; r++)
-        mean += sum[r] / REPLICATES;
-    for (int r = 0; r < REPLICATES; r++)
-        differ += (sum[r] - mean) * (sum[r] - mean);
-    return differ / (REPLICATES * (REPLICATES - 1.0));
+    (void)replicates_mean(sum, &variance);
+    return variance;
 }
 
 static struct RadMeasure measure_l1(struct judged *j)

@@ -5,7 +5,7 @@
 
 double reflected_light(const struct problem *p, const struct tally *tally, double *variance)
 {
-    double power[REPLICATES], mean = 0, square = 0;
+    double power[REPLICATES];
     for (int r = 0; r < REPLICATES; r++) {
         power[r] = 0;
         for (uint32_t f = 0; f < tally->faces; f++)
@@ -15,11 +15,7 @@ double reflected_light(const struct problem *p, const struct tally *tally, doubl
     }
     if (tally->quarters)
         ranks_add(p->options.ranks, RANKS_PARTICLES, power, REPLICATES);
-    for (int r = 0; r < REPLICATES; r++)
-        mean += power[r] / REPLICATES;
-    for (int r = 0; r < REPLICATES; r++)
-        square += (power[r] - mean) * (power[r] - mean);
-    *variance = square / (REPLICATES * (REPLICATES - 1));
+    const double mean = replicates_mean(power, variance);
     if (tally->faces > 0)
         *variance += tally_unseen(tally) * mean * mean / tally->faces;
     if (!(mean > 0) && !tally->by_paths && p->reflects)

@@ -39,6 +39,18 @@ enum { REPLICATES = 16 };
 _Static_assert(REPLICATES == 16, "REPLICATES_T is that of 15 degrees of freedom");
 #define FACE_ELSEWHERE UINT32_MAX
 
+/* The mean of what replicates say, and the variance of that mean, by how they differ. */
+static inline double replicates_mean(const double value[REPLICATES], double *variance)
+{
+    double mean = 0, square = 0;
+    for (int r = 0; r < REPLICATES; r++)
+        mean += value[r] / REPLICATES;
+    for (int r = 0; r < REPLICATES; r++)
+        square += (value[r] - mean) * (value[r] - mean);
+    *variance = square / (REPLICATES * (REPLICATES - 1));
+    return mean;
+}
+
 /* What has been counted. */
 struct tally {
     uint32_t faces, elements, bands; /* elements: of the hierarchy here */
