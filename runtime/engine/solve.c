@@ -72,13 +72,20 @@ static int watch_importance(void *context, const struct transport *x)
     return solve_tell(s, "solve");
 }
 
-/* Solve; a cause of failure is the solve's. Returns 0 or -1. */
+/* Solve; then all ranks have what surfaces have. A cause of failure is the solve's. Returns 0 or
+ * -1. */
 static int solve_transport(struct solve *s, struct transport *x)
 {
-    const int result = transport_solve(&s->operator, x);
-    if (result < 0 && x->cause[0])
-        memcpy(s->cause, x->cause, sizeof s->cause);
-    return result;
+    struct shares *shares = &s->operator.shares;
+    if (transport_solve(&s->operator, x) < 0) {
+        if (x->cause[0])
+            memcpy(s->cause, x->cause, sizeof s->cause);
+        return -1;
+    }
+    return shares_complete(shares, x->value, x->bands) < 0
+                   || shares_complete(shares, x->irradiance, x->bands) < 0
+               ? -1
+               : 0;
 }
 
 /* What keeps a step from going on. Returns -1. */
@@ -185,8 +192,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
         return -1;
     x.watch = watch_light;
     x.watch_context = s;
-    if (solve_transport(s, &x) < 0 || shares_complete(&op->shares, x.value, x.bands) < 0
-        || shares_complete(&op->shares, x.irradiance, x.bands) < 0)
+    if (solve_transport(s, &x) < 0)
         return -1;
     s->report.converged = x.converged;
     s->report.tolerance = x.held;
@@ -208,9 +214,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
         return -1;
     carried.watch = watch_importance;
     carried.watch_context = s;
-    if (solve_transport(s, &carried) < 0
-        || shares_complete(&op->shares, carried.value, carried.bands) < 0
-        || shares_complete(&op->shares, carried.irradiance, carried.bands) < 0)
+    if (solve_transport(s, &carried) < 0)
         return -1;
     s->importance.sweeps += carried.sweeps;
     s->report.converged &= carried.converged;
