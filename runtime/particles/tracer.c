@@ -1,6 +1,7 @@
 /* tracer.c - see tracer.h.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
+#include <string.h>
 #include "kernel/hemisphere.h"
 #include "kernel/lambert.h"
 #include "kernel/surface_point.h"
@@ -90,14 +91,9 @@ int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u
     if (met < 0)
         return met;
     const struct element *e = tracer_surface(t, (uint32_t)met);
-    for (int k = 0; k < 3; k++)
-        p[k] += distance * direction[k];
-    double above_plane = height3(p, e->vertex[0], e->normal);
-    for (int k = 0; k < 3; k++) {
-        p[k] -= above_plane * e->normal[k]; /* the distance has the rounding of single precision */
-        if (at)
-            at[k] = p[k];
-    }
+    ray_land(p, direction, distance, e);
+    if (at)
+        memcpy(at, p, 3 * sizeof *at);
     move_off(t, e, p);
     return met;
 }

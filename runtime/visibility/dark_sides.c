@@ -85,11 +85,7 @@ static void walk(struct search *s, uint32_t from)
             return;
         }
         e = hierarchy_surface(s->h, (uint32_t)met);
-        for (int k = 0; k < 3; k++)
-            p[k] += distance * d[k];
-        double over = height3(p, e->vertex[0], e->normal);
-        for (int k = 0; k < 3; k++)
-            p[k] -= over * e->normal[k]; /* the distance has the rounding of single precision */
+        ray_land(p, d, distance, e);
         move_off(s, e, p);
     }
 }

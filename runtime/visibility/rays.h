@@ -59,6 +59,17 @@ static inline int64_t ray_meets_back(int64_t face)
 }
 int64_t rays_meet(const struct rays *rays, const double from[3], const double direction[3],
                   double *distance);
+/* From p to where its ray meets e: into the plane of e, which the distance misses by the rounding
+ * of single precision. */
+static inline void ray_land(double p[3], const double direction[3], double distance,
+                            const struct element *e)
+{
+    for (int k = 0; k < 3; k++)
+        p[k] += distance * direction[k];
+    const double above = height3(p, e->vertex[0], e->normal);
+    for (int k = 0; k < 3; k++)
+        p[k] -= above * e->normal[k];
+}
 
 /* Is the segment from + t direction, 0 < t < 1, blocked? Ends stand off their surfaces, as above.
  * Thread-safe; not counted. */
