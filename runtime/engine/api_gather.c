@@ -6,9 +6,6 @@
 #include "particles/gather.h"
 #include "util/thread_pool.h"
 
-/* Of random numbers: those of no mending, measurement or reference. */
-static const uint64_t GATHER_STREAM = (uint64_t)0x676174 << 40;
-
 static int check_points(RadSolution solution, const struct RadGatherPoint *points, size_t count)
 {
     RadDevice device = solution->scene->device;
@@ -71,7 +68,7 @@ int radGather(RadSolution solution, const struct RadGatherPoint *points, size_t 
     const struct solve *s = &solution->solve;
     const struct tracer t = solve_tracer(s);
     struct gather g;
-    if (gather_open(&g, &t, solve_shown(s)->radiosity, solve_gradient(s), GATHER_STREAM) < 0)
+    if (gather_open(&g, &t, solve_shown(s)->radiosity, solve_gradient(s)) < 0)
         return api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory to gather light");
     const struct gathering work = {&g, points, radiosity, t.bands};
     thread_pool_run(t.threads, count, 64, gather_points, &work);

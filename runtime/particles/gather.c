@@ -14,6 +14,9 @@
 #include "particles/gather.h"
 #include "particles/paths.h"
 
+/* Of random numbers: those of no mending, measurement or reference. */
+static const uint64_t STREAM = (uint64_t)0x676174 << 40;
+
 static double sum_of(const double *values, uint32_t bands)
 {
     double sum = 0;
@@ -73,15 +76,14 @@ static void mark_pieces(struct gather *g)
 }
 
 int gather_open(struct gather *g, const struct tracer *t, const double *radiosity,
-                const double *gradient, uint64_t stream)
+                const double *gradient)
 {
     const struct hierarchy *h = t->hierarchy;
     uint32_t bands = t->bands;
     *g = (struct gather){.tracer = t,
                          .radiosity = radiosity,
                          .gradient = gradient,
-                         .mean = sum_of(radiosity, bands),
-                         .stream = stream};
+                         .mean = sum_of(radiosity, bands)};
     uint32_t count = find_pieces(g, NULL);
     double *shines = malloc(((size_t)count + 1) * bands * sizeof *shines);
     g->lights = (struct hierarchy){.elements = h->elements, .face_count = count};
@@ -230,8 +232,8 @@ void gather_radiosity(const struct gather *g, uint32_t face, const double point[
     const struct tracer *t = g->tracer;
     uint32_t lights = g->tree.count > 0 ? count / 2 : 0, shift[SOBOL_DIMENSIONS];
     double p[3] = {point[0], point[1], point[2]}, h[3] = {0, 0, 0};
-    struct dice of_set = dice_of(g->stream, set);
-    struct dice dice = dice_of(g->stream + 1, set + ((uint64_t)first << 40));
+    struct dice of_set = dice_of(STREAM, set);
+    struct dice dice = dice_of(STREAM + 1, set + ((uint64_t)first << 40));
     const struct fan fan = {face, p, {count - lights, lights}, &dice};
     for (int d = 0; d < SOBOL_DIMENSIONS; d++)
         shift[d] = (uint32_t)(hash64(of_set.state += HASH_STEP) >> 32);

@@ -30,7 +30,6 @@ struct gather {
     uint32_t *piece;        /* [elements]: of leaves, the bright thing they are of; or NO_PIECE */
     struct light_tree tree; /* over them */
     struct sobol_sequence sobol;
-    uint64_t stream; /* which random numbers */
 };
 
 #define NO_PIECE UINT32_MAX
@@ -38,7 +37,7 @@ struct gather {
 /* From a solution over the elements of t->hierarchy, the root's being the mean. Returns 0, or -1
  * when out of memory. */
 int gather_open(struct gather *g, const struct tracer *t, const double *radiosity,
-                const double *gradient, uint64_t stream);
+                const double *gradient);
 void gather_close(struct gather *g);
 
 /* B per band (W/m2) at a point of a face, by `count` rays and those of second steps. Points of one
