@@ -17,7 +17,7 @@ int exchange_scratch_open(struct exchange_scratch *s, const struct sight_limits 
     s->horizon = horizon_open();
     return !s->horizon || sight_scratch_open(&s->sight, limits) < 0
                ? -1
-               : shadow_scratch_open(&s->shadow, TILE);
+               : shadow_scratch_open(&s->shadow);
 }
 
 void exchange_scratch_close(struct exchange_scratch *s)

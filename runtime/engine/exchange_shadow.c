@@ -53,10 +53,10 @@ struct cast {
     struct outline shadow[4];
 };
 
-int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most)
+int shadow_scratch_open(struct shadow_scratch *scratch)
 {
-    scratch->cells = malloc(most * sizeof *scratch->cells);
-    scratch->sights = malloc(most * sizeof *scratch->sights);
+    scratch->cells = malloc(TILE * sizeof *scratch->cells);
+    scratch->sights = malloc(TILE * sizeof *scratch->sights);
     return scratch->cells && scratch->sights ? 0 : -1;
 }
 

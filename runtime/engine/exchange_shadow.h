@@ -6,12 +6,12 @@
 #include "engine/exchange_clear.h"
 #include "engine/exchange_sight.h"
 
-/* One thread's room. */
+/* One thread's room, for the faces of a tile's side. */
 struct shadow_scratch {
     struct shadow_cell *cells;
     struct shadow_sight *sights;
 };
-int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most);
+int shadow_scratch_open(struct shadow_scratch *scratch);
 void shadow_scratch_close(struct shadow_scratch *scratch);
 
 /* values[rows][columns] are what pairs would exchange if nothing stood between; on return, what
