@@ -111,6 +111,20 @@ static void note_arguments(struct RadArgument *out, const struct dag *dag, const
     }
 }
 
+/* What it came to, with its terms from `term` on. */
+static void note_end(struct explanation *x, const struct dag *dag, int term,
+                     const struct terms *terms)
+{
+    x->shown.decision_name = dag->decisions[x->shown.decision].name;
+    x->shown.decision_doc = dag->decisions[x->shown.decision].doc;
+    x->shown.terms = &x->terms[term];
+    for (int i = 0; i < dag->term_count; i++) {
+        const struct RadTerm t = read_term(dag, i, terms);
+        if (t.level_number)
+            x->terms[term + x->shown.term_count++] = t;
+    }
+}
+
 /* Hold it once more. `first`: everything is noted, later only shorter times are. */
 static void repeat(struct explanation *x, const struct program *p, const struct discussion *before,
                    const struct host *real, int first)
@@ -163,16 +177,8 @@ static void repeat(struct explanation *x, const struct program *p, const struct 
     }
     x->shown.asked_count = count;
     x->shown.rays = host.rays;
-    if (!first)
-        return;
-    x->shown.decision_name = dag->decisions[x->shown.decision].name;
-    x->shown.decision_doc = dag->decisions[x->shown.decision].doc;
-    x->shown.terms = &x->terms[term];
-    for (int i = 0; i < dag->term_count; i++) {
-        const struct RadTerm t = read_term(dag, i, &d.terms);
-        if (t.level_number)
-            x->terms[term + x->shown.term_count++] = t;
-    }
+    if (first)
+        note_end(x, dag, term, &d.terms);
 }
 
 int explain(struct explanation *x, const struct refiner *r, const struct discussion *before,
