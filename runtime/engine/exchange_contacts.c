@@ -12,7 +12,6 @@
 #include "hierarchy/body_contacts.h"
 #include "hierarchy/body_feet.h"
 #include "hierarchy/body_rest.h"
-#include "kernel/constants.h"
 #include "kernel/hemisphere.h"
 #include "kernel/lambert.h"
 

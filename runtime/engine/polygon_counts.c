@@ -10,7 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "engine/reflected_light.h"
 #include "kernel/constants.h"
 
 /* Sums over the faces of a polygon: what was solved, and of each replicate. Returns 0, or -1 when

@@ -18,7 +18,6 @@
 #include "hierarchy/body_parts.h"
 #include "hierarchy/body_rest.h"
 #include "hierarchy/places.h"
-#include "hierarchy/polygon.h"
 #include "hierarchy/reach.h"
 #include "util/array.h"
 
