@@ -98,8 +98,8 @@ static void add_share(struct walk *w, uint32_t emitter, const double range[2], d
         w->groups[w->group - 1].visible = 0;
 }
 
-/* Shares from here to the matching close_group are of parts of one face. Returns 0 when no point of
- * the leaf can see it. */
+/* Until w->group is 0 again, shares are of parts of this face. Returns 0 when no point of the leaf
+ * can see it. */
 static int open_group(struct walk *w, const struct element *face)
 {
     double range[2];
