@@ -250,7 +250,6 @@ static void solve_bound(struct bracket *b, const struct light_operator *op, int 
     for (int n = 0; n < SWEEPS; n++) {
         choose_levels(&w);
         sweep_bound(&w);
-        b->sweeps++;
         b->power[upper] = power_of(op, w.value);
         if (!(fabs(b->power[upper] - before) > BRACKET_ENOUGH * fabs(b->power[upper] - other)))
             break;

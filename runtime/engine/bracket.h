@@ -13,7 +13,7 @@ struct bracket {
     uint32_t started;
     unsigned char *closed; /* [element]: no light leaves the scene from there (winding.h) */
     float (*range)[2];     /* [link]: F V of any point of the receiver is between */
-    int solves, sweeps;
+    int solves;
     double power[2]; /* W, all bands: sum over uncovered leaves of A times lower, and upper */
 };
 

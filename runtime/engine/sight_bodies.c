@@ -45,8 +45,7 @@ static int add_edge(struct sight_bodies *b, int from, int to, int left, int righ
         b->end[0][k][b->edges] = b->corner[k][from];
         b->end[1][k][b->edges] = b->corner[k][to];
     }
-    b->edge[b->edges++] =
-        (struct sight_body_edge){(int16_t)from, (int16_t)to, (int16_t)left, (int16_t)right};
+    b->edge[b->edges++] = (struct sight_body_edge){(int16_t)left, (int16_t)right};
     return 0;
 }
 

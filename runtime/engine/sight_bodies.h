@@ -25,7 +25,7 @@ struct sight_bodies {
     } body[SIGHT_BODIES + 1];
     double corner[3][SIGHT_BODY_CORNERS], plane[4][SIGHT_BODY_PLANES];
     struct sight_body_edge {
-        int16_t from, to, left, right;
+        int16_t left, right; /* planes of the two faces that it is of */
     } edge[SIGHT_BODY_EDGES];
     double end[2][3][SIGHT_BODY_EDGES + LANES_MOST]; /* the corners of edges */
 };

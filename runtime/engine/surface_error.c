@@ -40,7 +40,6 @@ struct stage {
     uint32_t count;            /* of all densities together */
     uint32_t from[PLACES + 1]; /* of each density's; they come in twos, both of one part */
     struct path_rays rays;     /* of one half of a point */
-    double area;               /* share of the line that no solid covers */
 };
 
 struct measurement {
@@ -143,8 +142,6 @@ static int measure_stage(struct measurement *m, struct stage *stage, double n,
     uint64_t cast = rays;
     ranks_add_counts(m->tracer->ranks, RANKS_PARTICLES, &cast, 1);
     m->rays += cast;
-    for (uint32_t i = 0; i < stage->count && !loop.stopped; i++)
-        stage->area += stage->point[i].part;
     return loop.stopped ? -1 : 0;
 }
 
