@@ -231,12 +231,11 @@ static void print_readers(const struct dag *dag, struct text *out)
     dag_print(out, "\nconst struct term_entry term_table[] = {\n");
     for (int i = 0; i < dag->term_count; i++)
         dag_print(out,
-                  "    {\"%s\", %d, read_%s, offsetof(struct terms, %s), "
+                  "    {\"%s\", read_%s, offsetof(struct terms, %s), "
                   "offsetof(struct terms, %s_level)},\n",
-                  dag->terms[i].name, dag->terms[i].levels.count, dag->terms[i].name,
-                  dag->terms[i].name, dag->terms[i].name);
+                  dag->terms[i].name, dag->terms[i].name, dag->terms[i].name, dag->terms[i].name);
     if (dag->term_count == 0)
-        dag_print(out, "    {\"\", 0, 0, 0, 0},\n");
+        dag_print(out, "    {\"\", 0, 0, 0},\n");
     dag_print(out, "};\nconst int term_table_count = %d;\n", dag->term_count);
     dag_print(out, "\nconst struct fact_entry fact_table[] = {\n");
     for (int i = 0; i < dag->fact_count; i++) {

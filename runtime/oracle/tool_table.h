@@ -19,7 +19,6 @@ struct tool_entry {
 
 struct term_entry {
     const char *name;
-    int level_count; /* 0: the term is absent or present */
     /* The term at this level (from 1) or a better one; 0 for a vector, which is only computed. */
     double (*read)(struct discussion *d, int level);
     /* in struct terms: of its value, doubles or an int as the catalog's type says, and of the
