@@ -1716,24 +1716,13 @@ static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p
     return refiner_contour_factor(p, q, area * down * down, error) * up * up;
 }
 
-/* The largest height of e's corners over the plane of `plane` (m). */
-static inline double refiner_polygon_factor_height(const struct refiner_element *e, const struct refiner_element *plane)
-{
-    double most = refiner_height3(e->vertex[0], plane->centre, plane->normal);
-    for (int i = 1; i < e->vertices; i++) {
-        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
-        most = h > most ? h : most;
-    }
-    return most;
-}
-
 /* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane,
  * that F is 0, as for coplanar elements, not what sums of nothing leave. A plane is known the worse
  * the narrower its element and the farther off the corner. */
 static inline int refiner_polygon_factor_hidden(const struct refiner_element *r, const struct refiner_element *s,
                                         double exchange)
 {
-    double away[3], width = r->area / r->radius;
+    double away[3], width = r->area / r->radius, low, high;
     if (!(exchange < REFINER_POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
         return 0;
     refiner_sub3(away, s->centre, r->centre);
@@ -1744,7 +1733,11 @@ static inline int refiner_polygon_factor_hidden(const struct refiner_element *r,
     if (s->area / s->radius < width)
         width = s->area / s->radius;
     double flat = REFINER_POLYGON_FACTOR_FLAT * size * (1 + reach / width);
-    return refiner_polygon_factor_height(r, s) <= flat || refiner_polygon_factor_height(s, r) <= flat;
+    refiner_plane_side_heights(r, s, &low, &high);
+    if (high <= flat)
+        return 1;
+    refiner_plane_side_heights(s, r, &low, &high);
+    return high <= flat;
 }
 
 /* The normal of an element to clip at. Of a narrow one it is known to few digits across the longest

@@ -11,6 +11,7 @@
 #include "kernel/constants.h"
 #include "kernel/contour_factor.h"
 #include "kernel/lambert.h"
+#include "kernel/plane_side.h"
 
 /* Multiply a polygon's corners by a power of two. */
 static inline void polygon_factor_scale(struct polygon *p, double factor)
@@ -125,24 +126,13 @@ static inline double polygon_factor_contour_at(struct polygon *p, struct polygon
     return contour_factor(p, q, area * down * down, error) * up * up;
 }
 
-/* The largest height of e's corners over the plane of `plane` (m). */
-static inline double polygon_factor_height(const struct element *e, const struct element *plane)
-{
-    double most = height3(e->vertex[0], plane->centre, plane->normal);
-    for (int i = 1; i < e->vertices; i++) {
-        double h = height3(e->vertex[i], plane->centre, plane->normal);
-        most = h > most ? h : most;
-    }
-    return most;
-}
-
 /* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane,
  * that F is 0, as for coplanar elements, not what sums of nothing leave. A plane is known the worse
  * the narrower its element and the farther off the corner. */
 static inline int polygon_factor_hidden(const struct element *r, const struct element *s,
                                         double exchange)
 {
-    double away[3], width = r->area / r->radius;
+    double away[3], width = r->area / r->radius, low, high;
     if (!(exchange < POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
         return 0;
     sub3(away, s->centre, r->centre);
@@ -153,7 +143,11 @@ static inline int polygon_factor_hidden(const struct element *r, const struct el
     if (s->area / s->radius < width)
         width = s->area / s->radius;
     double flat = POLYGON_FACTOR_FLAT * size * (1 + reach / width);
-    return polygon_factor_height(r, s) <= flat || polygon_factor_height(s, r) <= flat;
+    plane_side_heights(r, s, &low, &high);
+    if (high <= flat)
+        return 1;
+    plane_side_heights(s, r, &low, &high);
+    return high <= flat;
 }
 
 /* The normal of an element to clip at. Of a narrow one it is known to few digits across the longest
