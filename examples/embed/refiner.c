@@ -2286,7 +2286,7 @@ REFINER_TOOL double refiner_form_factor_disc(struct refiner_discussion *d)
     double cos_s = -refiner_dot3(s->normal, axis);
     if (!(cos_r > 0) || !(cos_s > 0))
         return 0;
-    return cos_r * cos_s * s->area / (square * (3.14159265358979323846 * square + s->area));
+    return cos_r * cos_s * s->area / (square * (REFINER_LAMBERT_PI * square + s->area));
 }
 
 REFINER_TOOL double refiner_form_factor_of(struct refiner_discussion *d, enum refiner_form_factor_level level)

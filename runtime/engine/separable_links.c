@@ -8,10 +8,9 @@
 #include "engine/pivots.h"
 #include "engine/separable_links.h"
 #include "engine/separable_sums.h"
+#include "kernel/lambert.h"
 #include "kernel/lanes.h"
 #include "util/thread_pool.h"
-
-#define INVERSE_PI 0.31830988618379067154
 
 enum { CHUNK = 64 }; /* faces that one thread takes at a time */
 
@@ -49,7 +48,8 @@ static void separate_link(const struct separable_links *c, struct separable_link
     float passes =
         find_pivots(&b->r, &b->s, &elements[l->receiver], &elements[l->emitter], &of_r, &of_s);
     if (passes > 0)
-        b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (double)passes);
+        b->scale =
+            (float)(l->visibility * (1.0 / LINK_VISIBLE) * (1 / LAMBERT_PI) / (double)passes);
     if (elements[l->emitter].depth > 0)
         b->sends = of_s.faces.area[0] * separable_kernel(&of_s.faces, 0, &b->r);
     if (elements[l->receiver].depth > 0)

@@ -17,9 +17,8 @@
 #include "hierarchy/bvh.h"
 #include "hierarchy/polygon.h"
 #include "kernel/constants.h"
+#include "kernel/lambert.h"
 #include "util/array.h"
-
-static const double PI = 3.14159265358979323846;
 
 int cut_frame_of(struct cut_frame *c, const struct face *faces, uint32_t index, int two_sided,
                  double precision)
@@ -122,8 +121,8 @@ static int find_contact(const struct cut_frame *c, const struct face *faces, uin
         return 0;
     double angle = atan2(dot3(direction, c->v), dot3(direction, c->u));
     /* A line has two directions; keep the one in [0, pi), and lines about 0 together. */
-    if (angle < -CUT_SAME_LINE || angle >= PI - CUT_SAME_LINE) {
-        angle += angle < 0 ? PI : -PI;
+    if (angle < -CUT_SAME_LINE || angle >= LAMBERT_PI - CUT_SAME_LINE) {
+        angle += angle < 0 ? LAMBERT_PI : -LAMBERT_PI;
         sine = -sine;
     }
     for (int k = 0; k < 3; k++)

@@ -19,6 +19,7 @@
 #include "discussion.h"
 #include "kernel/constants.h"
 #include "kernel/element_distance.h"
+#include "kernel/lambert.h"
 
 enum { COSINE_BOUND_STEPS = 12 };
 
@@ -118,7 +119,7 @@ static inline void cosine_bound_boxes(const struct element *e, const struct elem
     double open = e->vertices ? 0 : acos(e->cone < 1 ? e->cone : 1) + COSINE_BOUND_CONE;
     range[0] = range[0] > -1 ? range[0] : -1;
     range[1] = range[1] < 1 ? range[1] : 1;
-    range[0] = acos(range[0]) + open < 3.14159265358979323846 ? cos(acos(range[0]) + open) : -1;
+    range[0] = acos(range[0]) + open < LAMBERT_PI ? cos(acos(range[0]) + open) : -1;
     range[1] = acos(range[1]) - open > 0 ? cos(acos(range[1]) - open) : 1;
 }
 

@@ -5,10 +5,11 @@
 #define KERNEL_POINT_INTENSITY_H
 
 #include "discussion.h"
+#include "kernel/lambert.h"
 
 static inline double point_intensity(const struct element *s, double radiosity)
 {
-    return 0.31830988618379067154 * s->area * radiosity;
+    return (1 / LAMBERT_PI) * s->area * radiosity;
 }
 
 #endif

@@ -44,6 +44,7 @@
 #include "terms/axis.h"
 #include "kernel/constants.h"
 #include "kernel/hemicube.h"
+#include "kernel/lambert.h"
 #include "kernel/point_factor.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/ray_factor.h"
@@ -63,7 +64,7 @@ TOOL double form_factor_disc(struct discussion *d)
     double cos_s = -dot3(s->normal, axis);
     if (!(cos_r > 0) || !(cos_s > 0))
         return 0;
-    return cos_r * cos_s * s->area / (square * (3.14159265358979323846 * square + s->area));
+    return cos_r * cos_s * s->area / (square * (LAMBERT_PI * square + s->area));
 }
 
 TOOL double form_factor_of(struct discussion *d, enum form_factor_level level)

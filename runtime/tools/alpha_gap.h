@@ -16,8 +16,9 @@
 #include "discussion.h"
 #include "terms/axis.h"
 #include "kernel/cluster_facing.h"
+#include "kernel/constants.h"
+#include "kernel/lambert.h"
 #include "kernel/threshold.h"
-#include "tools/cluster_gap.h"
 
 OUTLINE double alpha_gap_range(const struct element *r, const struct element *s,
                                const struct element *all, const double axis[3])
@@ -35,7 +36,7 @@ OUTLINE double alpha_gap_range(const struct element *r, const struct element *s,
     double facing = cluster_facing_parts(r, all, v, slope);
     if (!(facing > 0)) /* so of an element without area */
         return 0;
-    return 0.31830988618379067154 * (facing / r->area) * cluster_facing_parts(s, all, back, slope)
+    return (1 / LAMBERT_PI) * (facing / r->area) * cluster_facing_parts(s, all, back, slope)
            * s->radiosity * (1 / (low * low) - 1 / (high * high));
 }
 

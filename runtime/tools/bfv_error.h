@@ -16,6 +16,7 @@
 
 #include "discussion.h"
 #include "kernel/constants.h"
+#include "kernel/lambert.h"
 #include "kernel/threshold.h"
 #include "terms/visibility.h"
 
@@ -33,7 +34,7 @@ static inline double bfv_error_at(const double x[3], const double n[3], const st
         double cos_s = -dot3(s->normal, v);
         double square = dot3(v, v);
         if (cos_r > 0 && cos_s > 0)
-            sum += cos_r * cos_s * area / (square * (3.14159265358979323846 * square + area));
+            sum += cos_r * cos_s * area / (square * (LAMBERT_PI * square + area));
     }
     return sum < 1 ? sum : 1;
 }

@@ -7,7 +7,7 @@
 #define TOOL_OVERLAP_H
 
 #include "discussion.h"
-#include "terms/distance.h"
+#include "kernel/element_distance.h"
 
 TOOL enum overlap_answer tool_overlap(struct discussion *d)
 {
