@@ -830,6 +830,16 @@ static inline void refiner_plane_side_heights(const struct refiner_element *e, c
     }
 }
 
+/* 1: a corner of the surface e lies behind the plane of the surface `plane`. */
+static inline int refiner_plane_side_behind(const struct refiner_element *e, const struct refiner_element *plane,
+                                    double flat)
+{
+    for (int i = 0; i < e->vertices; i++)
+        if (refiner_height3(e->vertex[i], plane->centre, plane->normal) < -flat)
+            return 1;
+    return 0;
+}
+
 /* 1: e, or the box of the cluster e, has parts on both sides of the plane of `plane`. A cluster
  * has no plane. */
 static inline int refiner_plane_side_crosses(const struct refiner_element *e, const struct refiner_element *plane,

@@ -16,6 +16,7 @@
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "kernel/lanes.h"
+#include "kernel/plane_side.h"
 #include "kernel/polygon_factor.h"
 
 /* How large a face's third moments are: 1 of a triangle, 0 of a parallelogram. */
@@ -97,7 +98,8 @@ struct kernel_rule {
 struct line {
     double shift[3][TILE]; /* M_j n */
     double doubt[TILE];    /* of its pairs, how much of the tolerance the error may be, squared */
-    unsigned char crosses[TILE];   /* whether the plane of the own group runs through them */
+    /* whether a part of each is behind the own group's plane: its kernel is not smooth then */
+    unsigned char crosses[TILE];
     struct kernel_rule rule[TILE]; /* their points, once asked for */
 };
 
@@ -108,15 +110,6 @@ static void moment_times(const struct exchange_faces *p, uint32_t i, const doubl
     out[0] = p->moment[0][i] * v[0] + p->moment[3][i] * v[1] + p->moment[4][i] * v[2];
     out[1] = p->moment[3][i] * v[0] + p->moment[1][i] * v[1] + p->moment[5][i] * v[2];
     out[2] = p->moment[4][i] * v[0] + p->moment[5][i] * v[1] + p->moment[2][i] * v[2];
-}
-
-/* Is a part of e behind the plane, whose kernel is no longer smooth over e then? */
-static int crosses(const struct element *e, const struct element *plane, double flat)
-{
-    for (int v = 0; v < e->vertices; v++)
-        if (height3(e->vertex[v], plane->centre, plane->normal) < -flat)
-            return 1;
-    return 0;
 }
 
 /* What every face across is to the group whose lines are asked for. */
@@ -131,8 +124,8 @@ static void open_line(const struct exchange_faces *p, const struct exchange_pair
         for (int k = 0; k < 3; k++)
             line->shift[k][j - range.from] = shift[k];
         line->rule[j - range.from].count = 0;
-        line->crosses[j - range.from] =
-            (unsigned char)crosses(exchange_tree_face(pair->tree, j), own, pair->tree->host.flat);
+        line->crosses[j - range.from] = (unsigned char)plane_side_behind(
+            exchange_tree_face(pair->tree, j), own, pair->tree->host.flat);
     }
 }
 
@@ -401,7 +394,8 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
         memset(out, 0, (range.to - range.from) * sizeof *out);
         return;
     }
-    const int cut = crosses(exchange_tree_face(pair->tree, i), other, pair->tree->host.flat);
+    const int cut =
+        plane_side_behind(exchange_tree_face(pair->tree, i), other, pair->tree->host.flat);
     struct kernel_rule rule = {.count = 0};
     second_order_row(p, i, own->normal, range, turned, tolerance, line, out);
     for (uint32_t j = range.from; j < range.to; j++) {

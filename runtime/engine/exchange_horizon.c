@@ -17,6 +17,7 @@
 #include <string.h>
 #include "engine/exchange_horizon.h"
 #include "engine/sight_shadows.h"
+#include "kernel/plane_side.h"
 #include "util/array.h"
 #include "visibility/hidden.h"
 
@@ -72,15 +73,6 @@ static int is_one(const struct exchange_tree *t, const struct sight_list *list)
         if (t->solids.of[list->face[i]] != t->solids.of[list->face[0]])
             return 0;
     return list->count > 0 && t->solids.of[list->face[0]] != 0;
-}
-
-/* Does no corner of e lie behind a plane? */
-static int is_before(const struct element *e, const struct element *plane, double flat)
-{
-    for (int i = 0; i < e->vertices; i++)
-        if (height3(e->vertex[i], plane->centre, plane->normal) < -flat)
-            return 0;
-    return 1;
 }
 
 static void plane_of(const struct element *e, const struct outline_frame *f, double plane[4])
@@ -449,7 +441,7 @@ int horizon_block(const struct exchange_faces *faces, const struct exchange_pair
     const uint32_t rows = pair->rows.to - pair->rows.from,
                    columns = pair->columns.to - pair->columns.from;
     if (!scratch->limits.many || rows > HORIZON_SIDE || columns > HORIZON_SIDE || !is_one(t, list)
-        || !is_before(r, s, t->host.flat) || !is_before(s, r, t->host.flat))
+        || plane_side_behind(r, s, t->host.flat) || plane_side_behind(s, r, t->host.flat))
         return 0;
     const int swap = sway(s, columns, t, list) < sway(r, rows, t, list);
     const struct face_range from = swap ? pair->columns : pair->rows,
