@@ -161,23 +161,9 @@ static int beside_cell(const struct outline *s, const struct outline_cell *cell)
     return 0;
 }
 
-/* How a cell lies to a shadow: 1: wholly beside one of its edges. */
-static int beside(const struct outline *s, const struct outline_cell *cell)
-{
-    int i;
-    for (int e = 0; e < s->n; e++) {
-        for (i = 0; i < cell->n; i++)
-            if (s->a[e] * cell->p[i][0] + s->b[e] * cell->p[i][1] < s->c[e])
-                break;
-        if (i == cell->n)
-            return 1;
-    }
-    return 0;
-}
-
 int sight_shade_meets(const struct outline *shade, const struct outline_cell *cell)
 {
-    return !beside(shade, cell) && !beside_cell(shade, cell);
+    return !outline_beside(shade, cell) && !beside_cell(shade, cell);
 }
 
 /* Does the shadow hide all of the cell? */

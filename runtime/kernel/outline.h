@@ -158,6 +158,20 @@ static inline void outline_add(struct outline_sum *sum, const struct outline_cel
     }
 }
 
+/* 1: the cell is wholly beside one of the shadow's edges. */
+static inline int outline_beside(const struct outline *s, const struct outline_cell *cell)
+{
+    int i;
+    for (int e = 0; e < s->n; e++) {
+        for (i = 0; i < cell->n; i++)
+            if (s->a[e] * cell->p[i][0] + s->b[e] * cell->p[i][1] < s->c[e])
+                break;
+        if (i == cell->n)
+            return 1;
+    }
+    return 0;
+}
+
 /* Add what is left of the cell when the shadows from k on are taken away. */
 static inline void outline_left(const struct outline *shadows, int count, int k,
                                 const struct outline_cell *cell, struct outline_sum *sum)
@@ -167,28 +181,17 @@ static inline void outline_left(const struct outline *shadows, int count, int k,
     int flip = 0;
     if (cell->n < 3)
         return;
-    int i;
-    for (;; k++) { /* the next one that is not wholly beside the cell */
-        int beside = 0;
-        if (k == count) {
-            outline_add(sum, cell);
-            return;
-        }
-        for (int e = 0; e < shadows[k].n && !beside; e++) {
-            for (i = 0; i < cell->n; i++)
-                if (shadows[k].a[e] * cell->p[i][0] + shadows[k].b[e] * cell->p[i][1]
-                    < shadows[k].c[e])
-                    break;
-            beside = i == cell->n;
-        }
-        if (!beside)
-            break;
+    while (k < count && outline_beside(&shadows[k], cell))
+        k++;
+    if (k == count) {
+        outline_add(sum, cell);
+        return;
     }
     const struct outline *s = &shadows[k];
     for (int e = 0; e < s->n && now->n >= 3; e++) {
         double h[OUTLINE_CELL];
         int above = 0;
-        for (i = 0; i < now->n; i++) {
+        for (int i = 0; i < now->n; i++) {
             h[i] = s->a[e] * now->p[i][0] + s->b[e] * now->p[i][1] - s->c[e];
             above += h[i] > 0;
         }
