@@ -197,19 +197,13 @@ static void choose_levels(struct bound_sweep *w)
     }
 }
 
-static int is_lit_leaf(const struct light_operator *op, uint32_t i)
-{
-    const struct element *e = &op->hierarchy->elements[i];
-    return e->vertices && !e->children && op->uncovered[i] > 0;
-}
-
 /* sum A x over uncovered leaves, all bands (W). */
 static double power_of(const struct light_operator *op, const double *x)
 {
     const uint32_t bands = op->problem->bands;
     double sum = 0;
     for (uint32_t i = 0; i < op->hierarchy->count; i++)
-        for (uint32_t k = 0; k < bands && is_lit_leaf(op, i); k++)
+        for (uint32_t k = 0; k < bands && operator_counts(op, i); k++)
             sum += op->hierarchy->elements[i].area * op->uncovered[i] * x[(size_t)i * bands + k];
     return sum;
 }

@@ -41,8 +41,7 @@ int error_bounds_make(struct error_account *a);
 /* Is it a leaf that light can reach? */
 static inline int account_counts(const struct error_account *a, uint32_t e)
 {
-    const struct element *x = &a->solve->hierarchy.elements[e];
-    return x->vertices && !x->children && a->solve->operator.uncovered[e]> 0;
+    return operator_counts(&a->solve->operator, e);
 }
 
 static inline void norm_add(struct norm_sums *n, double area, double error)

@@ -68,13 +68,6 @@ void error_control_start(struct error_control *c, double target, struct hierarch
     lower_ancestors(h, in);
 }
 
-/* Leaves of which any part is uncovered: others have no light whose error could count. */
-static int counts(const struct light_operator *op, uint32_t e)
-{
-    const struct element *x = &op->hierarchy->elements[e];
-    return x->vertices && !x->children && op->uncovered[e] > 0;
-}
-
 struct estimating {
     const struct error_control *control;
     const struct light_operator *op;
@@ -85,7 +78,7 @@ static void estimate_leaves(const void *estimating, size_t from, size_t to)
 {
     const struct estimating *x = estimating;
     for (uint32_t i = (uint32_t)from; i < to; i++)
-        if (counts(x->op, i))
+        if (operator_counts(x->op, i))
             x->control->residual[i] = residual_of_leaf(x->op, x->radiosity, i);
 }
 
@@ -99,7 +92,7 @@ int error_control_estimate(struct error_control *c, const struct light_operator 
     thread_pool_run(op->problem->options.threads, h->count, 16, estimate_leaves, &x);
     c->largest = c->area = 0;
     for (uint32_t i = 0; i < h->count; i++) {
-        if (!counts(op, i))
+        if (!operator_counts(op, i))
             continue;
         c->largest = fmax(c->largest, c->residual[i].all);
         c->area += c->residual[i].all > c->target ? h->elements[i].area : 0;
@@ -113,7 +106,7 @@ uint32_t error_control_tighten(const struct error_control *c, const struct light
     uint32_t lowered = 0;
     for (uint32_t i = 0; i < h->count; i++) {
         const struct leaf_residual *r = &c->residual[i];
-        if (!counts(op, i) || !(r->all > c->target) || r->guarded > c->target
+        if (!operator_counts(op, i) || !(r->all > c->target) || r->guarded > c->target
             || h->elements[i].tolerance * r->links < ERROR_ENOUGH * c->target)
             continue;
         h->elements[i].tolerance *= 1 / ERROR_STEP;

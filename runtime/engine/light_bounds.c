@@ -150,8 +150,7 @@ static double allot(const struct bounding *g, const struct share_row *row, int c
 
 static int counts(const struct bounding *g, uint32_t e)
 {
-    const struct element *x = &g->h->elements[e];
-    return x->vertices && !x->children && g->uncovered[e] > 0;
+    return operator_counts(g->b->ranges->op, e);
 }
 
 /* The extreme of the uncovered leaves below each element, from those of the leaves; 0 where there

@@ -71,4 +71,11 @@ static inline double operator_bare(const struct light_operator *op, uint32_t j, 
     return op->uncovered[e] > 0 ? op->uncovered[j] / op->uncovered[e] : 1;
 }
 
+/* Is e a leaf of which any part is bare? Others have no light whose error could count. */
+static inline int operator_counts(const struct light_operator *op, uint32_t e)
+{
+    const struct element *x = &op->hierarchy->elements[e];
+    return x->vertices && !x->children && op->uncovered[e] > 0;
+}
+
 #endif
