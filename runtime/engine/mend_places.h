@@ -45,8 +45,7 @@ static inline int mend_is_here(const struct mend_places *p, uint32_t element)
 /* Does this rank mend what is below the element? */
 static inline int mend_is_added(const struct light_operator *op, uint32_t element)
 {
-    const int owner = op->shares.common ? shares_owner(&op->shares, element) : SHARED;
-    return owner == SHARED || owner == ranks_number(op->shares.ranks);
+    return !op->shares.common || shares_keeps(&op->shares, element);
 }
 
 /* Is it a cluster of several ranks, which all mend? */
