@@ -511,8 +511,8 @@ RAD_API RadSolution radSolveScene(RadScene scene, RadOracle oracle,
                                   const struct RadChoiceOptions *wishes, struct RadChoice *choice);
 
 /* Area means of one band over each polygon of the scene, both sides of two-sided ones, a dark one
- * with 0; [RadSceneReport.polygons], the caller's; any may be NULL. B of what is not covered by
- * others, H over all of it. Returns 0, or -1. */
+ * with 0 (W/m2); [RadSceneReport.polygons], the caller's; any may be NULL. B of what is not covered
+ * by others, H over all of it. Returns 0, or -1. */
 RAD_API int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity,
                                 double *irradiance);
 
@@ -536,7 +536,8 @@ struct RadElements {
     uint32_t built;               /* of them, clusters and faces; parts of faces follow */
     const uint32_t *face_element; /* [RadSceneReport.faces]: the element that is the whole face */
     uint32_t bands;
-    const double *radiosity, *irradiance; /* [element * bands + band]; clusters hold means */
+    /* [element * bands + band] (W/m2); clusters hold means */
+    const double *radiosity, *irradiance;
     /* [count]: share of the element that no solid stands on; 0 of a side that no light comes to, as
      * the inside of a solid */
     const double *uncovered;
@@ -587,15 +588,19 @@ struct RadReport {
     struct {
         double bound, tolerance, variation;
     } solved;
-    /* row sums of leaves before cap or closure */
+    /* row sums of leaves before cap or closure, per uncovered area: the smallest and the largest;
+     * |row - 1|, its mean by uncovered area and the largest; uncovered leaves without any link
+     * (m2); what the cap or closure took, sum of A (row - 1) over rows above 1, over the scene's
+     * area */
     struct {
         double low, high, defect_mean, defect_most, blind_area, moved;
     } rows;
     /* under closure: 1 no light leaves the scene, 0 some does, -1 not asked */
     int closed;
     uint64_t closed_rays;
-    /* of a view, or, for oracles that compare errors in watts, of all surfaces alike; sweeps 0:
-     * none was asked for */
+    /* of a view, or, for oracles that compare errors in watts, of all surfaces alike: the largest
+     * of a leaf, and the mean by area; seen: area in the picture (m2). sweeps 0: none was asked
+     * for */
     struct {
         int sweeps;
         double largest, mean, seen;
@@ -621,7 +626,7 @@ struct RadReport {
      * wrong by at the most, in each band; 0: nothing. Only a measurement tells whether they are:
      * radMeasureError */
     double power_tolerance;
-    /* clusters: the tree above the faces, part of build; in_rays: within Embree, mean over
+    /* s. clusters: the tree above the faces, part of build; in_rays: within Embree, mean over
      * threads, part of refine, by one call in about 512 rays */
     struct {
         double build, refine, iterate, in_rays, clusters;
