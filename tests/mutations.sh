@@ -153,6 +153,7 @@ screens of one side | solver/output/faces_table.c | s/t->area.t->count. .= sides
 unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work
 a proof's folder stays     | dagc/prove/compile.c | s/dag_tidy_push(&tidy);/(void)tidy;/ | dagc/check_signals
 a slow disk is a hang       | solver/scene/import_child.c | s/") D"/") Q"/ | solver/check_import_child
+nobody slips               | solver/util/near_name.c | s/length \/ 3 + 2/0/ | solver/check_options solver/check_params
 imports are outputs        | solver/commands/check_outputs.c | s/return radListOracleFiles.*/return 0;/ | solver/check_options
 panel: texts are markup | solver/output/panel_page.c | s/strchr("<>&", \*at)/strchr("\&", *at)/ | solver/check_panel
 panel: wrong files taken | solver/panel/result.js | s/if (wrong.length) throw/if (false) throw/ | solver/check_panel

@@ -16,6 +16,7 @@
 #include "output/hdf5_file.h"
 #include "util/array.h"
 #include "util/machines.h"
+#include "util/near_name.h"
 #include "util/report.h"
 #include "util/same_file.h"
 #include "util/thread_pool.h"
@@ -156,6 +157,12 @@ static int wrong_option(enum command command, const char *argument)
     if (length && others >= 0)
         return wrong(name, "%s has no option %.*s; %s has", name, (int)(strcspn(argument, "=")),
                      argument, command_rows[others].name);
+    struct near_name near = near_name(word, length);
+    for (int i = 0; i < option_row_count && is_long; i++)
+        if (option_rows[i].commands >> command & 1 && option_rows[i].name[1])
+            near_name_offer(&near, option_rows[i].name);
+    if (near.best)
+        return wrong(name, "unknown option %s (did you mean --%s?)", argument, near.best);
     return wrong(name, "unknown option %s", argument);
 }
 
@@ -193,6 +200,24 @@ static int command_of(int count, char **arguments, enum command *command)
     return 0;
 }
 
+#define STUDY "study "
+
+/* The argument, behind `first` if that is there, names no command. Returns the exit status. */
+static int wrong_command(const char *first, const char *argument)
+{
+    const size_t prefix = strlen(first);
+    struct near_name near = near_name(argument, strlen(argument));
+    if (!*first)
+        near_name_offer(&near, "study");
+    for (int i = 0; i < COMMANDS; i++)
+        if (strncmp(command_rows[i].name, first, prefix) == 0)
+            near_name_offer(&near, command_rows[i].name + prefix);
+    return wrong(*first ? "study" : "", "%s %s%s%s%s",
+                 *first ? "there is no study" : "unknown command", argument,
+                 near.best ? " (did you mean " : "", near.best ? near.best : "",
+                 near.best ? "?)" : "");
+}
+
 static int is_help(const char *argument)
 {
     return strcmp(argument, "--help") == 0 || strcmp(argument, "--help=all") == 0
@@ -208,8 +233,8 @@ static int help_on(int count, char **arguments)
     if (command_of(count, arguments, &command))
         return print_command_help(command, 0);
     if (strcmp(arguments[0], "study") != 0)
-        return wrong("", "unknown command %s", arguments[0]);
-    return count < 2 ? print_studies_help() : wrong("study", "there is no study %s", arguments[1]);
+        return wrong_command("", arguments[0]);
+    return count < 2 ? print_studies_help() : wrong_command(STUDY, arguments[1]);
 }
 
 /* The arguments name no command. Returns the exit status. */
@@ -228,11 +253,10 @@ static int without_command(int count, char **arguments)
     if (*arguments[1] == '-')
         return wrong("", "a command comes first, not %s", arguments[1]);
     if (strcmp(arguments[1], "study") != 0)
-        return wrong("", "unknown command %s", arguments[1]);
+        return wrong_command("", arguments[1]);
     if (count < 3 || !*arguments[2])
         return wrong("study", "study what?");
-    return is_help(arguments[2]) ? print_studies_help()
-                                 : wrong("study", "there is no study %s", arguments[2]);
+    return is_help(arguments[2]) ? print_studies_help() : wrong_command(STUDY, arguments[2]);
 }
 
 /* The table as getopt_long wants it, for one command. */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "util/near_name.h"
 #include "util/open_oracle.h"
 #include "util/report.h"
 #include "util/text_file.h"
@@ -22,50 +23,19 @@ struct parameter_file {
     int named_oracle;      /* a line has said which oracle it is about */
 };
 
-/* Changes of one character that make `a` of `b`: insert, leave out, replace. [Levenshtein 1966] */
-static size_t distance(const char *a, const char *b)
-{
-    size_t row[NAME_SIZE + 1], length = strlen(b);
-    for (size_t j = 0; j <= length; j++)
-        row[j] = j;
-    for (size_t i = 0; a[i]; i++) {
-        size_t before = row[0]++;
-        for (size_t j = 0; j < length; j++) {
-            size_t replaced = before + (a[i] != b[j]);
-            before = row[j + 1];
-            size_t shorter = (before < row[j] ? before : row[j]) + 1;
-            row[j + 1] = replaced < shorter ? replaced : shorter;
-        }
-    }
-    return row[length];
-}
-
-/* The parameter whose name is nearest, when that is near enough to be a slip of the fingers. */
-static const char *nearest(const struct RadOracleReport *report, const char *name)
-{
-    const char *found = NULL;
-    size_t least = strlen(name) / 3 + 2;
-    for (int i = 0; i < report->parameter_count; i++) {
-        size_t d = distance(name, report->parameters[i].name);
-        if (d < least) {
-            least = d;
-            found = report->parameters[i].name;
-        }
-    }
-    return found;
-}
-
 static int unknown(const struct parameter_file *f, const char *name)
 {
-    const char *near = nearest(&f->report, name);
+    struct near_name near = near_name(name, strlen(name));
     char names[1000] = "none";
     int length = 0;
+    for (int i = 0; i < f->report.parameter_count; i++)
+        near_name_offer(&near, f->report.parameters[i].name);
     for (int i = 0; i < f->report.parameter_count && length < (int)sizeof names; i++)
         length += snprintf(names + length, sizeof names - (size_t)length, "%s%s", i ? ", " : "",
                            f->report.parameters[i].name);
     return report_error(f->path, f->line, "oracle %s has no parameter %s; %s%s%s", f->report.name,
-                        name, near ? "did you mean " : "it has ", near ? near : names,
-                        near ? "?" : "");
+                        name, near.best ? "did you mean " : "it has ",
+                        near.best ? near.best : names, near.best ? "?" : "");
 }
 
 static int set(struct parameter_file *f, const char *name, const char *text)

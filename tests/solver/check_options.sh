@@ -114,6 +114,11 @@ says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
 says 2 "unknown command nix; see radiosity --help" help nix
 says 2 "there is no study nix; see radiosity study --help" help study nix
+# A slip of the fingers is known for one.
+says 2 "unknown option --imgae=i.png (did you mean --image?); see radiosity solve --help" solve "$scene" --imgae=i.png
+says 2 "unknown command solv (did you mean solve?); see radiosity --help" solv "$scene"
+says 2 "unknown command stdy (did you mean study?); see radiosity --help" stdy arvo
+says 2 "there is no study stabilty (did you mean stability?); see radiosity study --help" study stabilty
 says 2 "a command comes first, not --image" --image x solve "$scene"
 says 2 "--mesh is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --mesh
 says 2 "--size is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --size 100x100
