@@ -276,11 +276,12 @@ void summary_print(const struct summary *s)
     const struct RadSceneReport *scene = &s->scene->report;
     struct RadOracleReport oracle;
     radGetOracleReport(s->oracle, &oracle);
-    printf("scene     %s: %u faces, %.4g m2, %s\n", s->options->scene, scene->polygons, scene->area,
-           r->bands == 1 ? "grey" : "three bands");
+    printf("scene     %s: %u face%s, %.4g m2, %s\n", s->options->scene, scene->polygons,
+           scene->polygons == 1 ? "" : "s", scene->area, r->bands == 1 ? "grey" : "three bands");
     if (scene->cut)
-        printf("cut       %u faces, into %u, where others stand in them or as they are long\n",
-               scene->cut, scene->parts);
+        printf("cut       %u face%s, into %u, where others stand in %s or as %s long\n", scene->cut,
+               scene->cut == 1 ? "" : "s", scene->parts, scene->cut == 1 ? "it" : "them",
+               scene->cut == 1 ? "it is" : "they are");
     printf("oracle    %s (%s release)\n", oracle.name, oracle.release);
     for (int i = 0; i < s->options->replacement_count; i++)
         printf("replaced  %s\n", s->options->replacements[i]);
