@@ -230,6 +230,15 @@ static void know_covered(struct exchange_loss *way, double covered, int side)
         way->backs = way->backs - more > off ? way->backs - more : 0;
 }
 
+/* Where it goes, with what is known of solids: they stand on that share of the row. */
+static struct exchange_loss ask_knowing(const struct exchange *x, uint32_t i,
+                                        struct environment_grid grid, double covered)
+{
+    struct exchange_loss way = ask_row(x, i, grid);
+    know_covered(&way, covered, grid.side);
+    return way;
+}
+
 /* Do few points alone tell what of row i's light is covered and what goes elsewhere? A point is
  * covered or not, so that they tell it to one of them, a sixteenth of a part; and where none is,
  * what stands between them shows in that a single ray from one of many meets a back. */
@@ -259,16 +268,12 @@ static void ask_rows(const void *asking, size_t from, size_t to)
             *way = (struct exchange_loss){.covered = 1};
             continue;
         }
-        *way = ask_row(a->exchange, (uint32_t)i, environment_coarse);
-        know_covered(way, covered, environment_coarse.side);
-        if (is_guessed(a->exchange, (uint32_t)i, way, covered)) {
-            *way = ask_row(a->exchange, (uint32_t)i, environment_middle);
-            know_covered(way, covered, environment_middle.side);
-        }
+        *way = ask_knowing(a->exchange, (uint32_t)i, environment_coarse, covered);
+        if (is_guessed(a->exchange, (uint32_t)i, way, covered))
+            *way = ask_knowing(a->exchange, (uint32_t)i, environment_middle, covered);
         if (!is_closed(way) || !(1 - a->share[i] > fmax(cell, a->options->tolerance)))
             continue;
-        *way = ask_row(a->exchange, (uint32_t)i, environment_fine);
-        know_covered(way, covered, environment_fine.side);
+        *way = ask_knowing(a->exchange, (uint32_t)i, environment_fine, covered);
     }
 }
 

@@ -32,16 +32,15 @@ static double turn_of(const struct environment_grid *grid, int i)
     return grid->anywhere ? TURN * (x - floor(x)) : i / (double)(grid->side * grid->side);
 }
 
-/* Where the unit square lies on the surface as it is, only turned, stretched and slanted: points
- * that are even in the one are even on the other. On triangles, and quads that narrow, they would
- * crowd at a corner or at the narrow side. */
-static int is_parallelogram(const struct element *e)
+/* Is it a quad that narrows, as what a triangle is cut into? Points of a grid would crowd at its
+ * narrow side; on triangles and parallelograms they are even. */
+static int narrows(const struct element *e)
 {
     double off = 0;
     for (int k = 0; k < 3 && e->vertices == 4; k++)
         off =
             fmax(off, fabs(e->vertex[0][k] - e->vertex[1][k] + e->vertex[2][k] - e->vertex[3][k]));
-    return e->vertices == 4 && off <= 1e-3 * e->radius;
+    return off > 1e-3 * e->radius;
 }
 
 struct environment environment_of(const struct rays *rays, const struct element *surface,
@@ -50,17 +49,17 @@ struct environment environment_of(const struct rays *rays, const struct element 
     const struct hemisphere above = hemisphere_over(surface->normal);
     const int points = grid.side * grid.side;
     const double offset = rays_host(rays)->ray_offset;
-    const int is_grid = is_parallelogram(surface);
+    const int is_uneven = narrows(surface);
     struct environment all = {0, 0, 0, 0};
     for (int i = 0; i < points; i++) {
         double p[3], d[3];
         int met[3] = {0, 0, 0};
         const double s = (i % grid.side + within(&grid, i, 0)) / grid.side,
                      t = (i / grid.side + within(&grid, i, 1)) / grid.side;
-        if (is_grid)
-            surface_point(p, surface, s, t);
-        else
+        if (is_uneven)
             surface_even_point(p, surface, s, t);
+        else
+            surface_point(p, surface, s, t);
         for (int k = 0; k < 3; k++)
             p[k] += offset * surface->normal[k];
         for (int m = 0; m < grid.directions; m++) {
