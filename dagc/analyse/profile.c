@@ -10,7 +10,6 @@
 
 #include "read/json_value.h"
 
-enum { LIST_PAIRS = 256 }; /* that a list holds at the most: PAIRS of emit/emit_wave.c */
 const int dag_profile_widths[PROFILE_WIDTHS] = {4, 8, 16};
 
 struct reading {
@@ -125,7 +124,7 @@ static const double *read_answers(struct reading *r, const struct node *node,
 static int agrees(struct reading *r, const struct node *node, const struct measured *measured,
                   const struct json_value *value)
 {
-    double sum = 0, most = measured->lists > 0 ? LIST_PAIRS * measured->lists : INFINITY;
+    double sum = 0, most = measured->lists > 0 ? DAG_WAVE_PAIRS * measured->lists : INFINITY;
     for (int i = 0; i < node->arcs.count; i++)
         sum += measured->answers[i];
     if (sum != measured->calls) {

@@ -5,6 +5,8 @@
 
 #include "base/internal.h"
 
+/* Pairs of a block that runs in waves: as WAVE_PAIRS of runtime/wave.h. */
+enum { DAG_WAVE_PAIRS = 256 };
 /* Pairs that are treated at once: of how many a vector is, in the order of measured.vectors. */
 enum { PROFILE_WIDTHS = 3 };
 extern const int dag_profile_widths[PROFILE_WIDTHS];

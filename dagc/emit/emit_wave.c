@@ -16,12 +16,13 @@
  * of the flat release. So decisions and terms are those of NAME_refine, to the bit.
  * SPDX-License-Identifier: MIT */
 #include "analyse/analyse.h"
+#include "analyse/profile.h"
 #include "emit/emit.h"
 #include "emit/line_directives.h"
 
-/* PAIRS: as WAVE_PAIRS of runtime/wave.h. A graph in which more nodes wait than LISTS_MOST would
- * need too much of a stack and goes pair by pair. */
-enum { PAIRS = 256, LISTS_MOST = 1000, NO_LIST = 0 };
+/* A graph in which more nodes wait than LISTS_MOST would need too much of a stack and goes pair by
+ * pair. */
+enum { LISTS_MOST = 1000, NO_LIST = 0 };
 
 struct wave {
     struct dag *dag;
@@ -258,7 +259,7 @@ static void print_arguments(const struct wave *wave, const struct node *node, in
     for (int i = 0; i < node->arguments.count; i++) {
         dag_print(out, "        ");
         print_given(wave, node, i);
-        dag_print(out, "[%d];\n", PAIRS);
+        dag_print(out, "[%d];\n", DAG_WAVE_PAIRS);
     }
     if (node->arguments.count == 0)
         return;
@@ -372,7 +373,7 @@ static void print_begin(const struct wave *wave)
               "        const int pairs = count < %d ? count : %d;\n"
               "        for (int k = 0; k < pairs; k++) {\n"
               "            at[1][k] = (uint16_t)k;\n",
-              PAIRS, PAIRS);
+              DAG_WAVE_PAIRS, DAG_WAVE_PAIRS);
     for (int i = 0; i < wave->dag->term_count; i++) {
         const char *name = wave->dag->terms[i].name;
         if (dag_is_kept(wave->dag, i) || (wave->options->terms != NULL && !wave->options->terms[i]))
@@ -407,14 +408,14 @@ void dag_emit_wave(struct dag *dag, struct text *out, const struct oracle_graph 
                   oracle->name, dag->verb);
         return;
     }
-    dag_print(out, "    uint16_t at[%d][%d];\n    int waiting[%d] = {0};\n", wave.lists, PAIRS,
-              wave.lists);
+    dag_print(out, "    uint16_t at[%d][%d];\n    int waiting[%d] = {0};\n", wave.lists,
+              DAG_WAVE_PAIRS, wave.lists);
     if (asks_together(&wave))
-        dag_print(out, "    unsigned char answers[%d];\n", PAIRS);
+        dag_print(out, "    unsigned char answers[%d];\n", DAG_WAVE_PAIRS);
     dag_print(out,
               "    (void)parameters;\n"
               "    for (; count > 0; count -= %d, block += %d, decisions += %d) {\n",
-              PAIRS, PAIRS, PAIRS);
+              DAG_WAVE_PAIRS, DAG_WAVE_PAIRS, DAG_WAVE_PAIRS);
     print_begin(&wave);
     for (int i = 0; i < oracle->order.count; i++)
         print_node(&wave, i);

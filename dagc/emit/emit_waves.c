@@ -9,8 +9,6 @@
 #include "analyse/profile.h"
 #include "emit/emit.h"
 
-enum { PAIRS = 256 }; /* as in emit_wave.c */
-
 /* By place in the order: the share of all discussions that comes by. */
 static double *find_shares(struct dag *dag, const struct oracle_graph *oracle)
 {
@@ -37,7 +35,7 @@ static void print_filled(struct text *out, const struct measured *m)
 
 static void print_measured(struct text *out, const struct measured *m, double discussions)
 {
-    dag_print(out, " %8.1f", discussions > 0 ? PAIRS * m->calls / discussions : 0);
+    dag_print(out, " %8.1f", discussions > 0 ? DAG_WAVE_PAIRS * m->calls / discussions : 0);
     if (m->lists > 0) {
         dag_print(out, " %8.1f", m->calls / m->lists);
         print_filled(out, m);
@@ -74,7 +72,7 @@ static void print_oracle(struct dag *dag, struct text *out, const struct oracle_
         const int together = tool->wave != NULL;
         double share = shares[i];
         dag_print(out, "  %-32s %-22s %-12s %.*f", node->name, tool->name,
-                  together ? "as a list" : "one by one", 1, PAIRS * share);
+                  together ? "as a list" : "one by one", 1, DAG_WAVE_PAIRS * share);
         if (profile != NULL) {
             const double all = profile->nodes[dag->order[oracle->order.first]].calls;
             print_measured(out, &profile->nodes[index], all);
