@@ -192,11 +192,11 @@ static int may_allow(const struct dag *dag, int tool)
 /* Is there a way from the target to a subdivision? */
 static int leads_to_split(const struct ordering *o, const struct target *target)
 {
-    const struct dag *dag = o->dag;
+    struct dag *dag = o->dag;
     const int count = o->oracle->order.count;
-    unsigned char *behind = dag_alloc(&o->dag->arena, (size_t)count + 1);
     if (target->kind == TARGET_DECISION)
         return dag->decisions[target->index].subdivides;
+    unsigned char *behind = dag_alloc(&dag->arena, (size_t)count + 1);
     behind[dag->nodes[target->index].order] = 1;
     for (int i = 0; i < count; i++) {
         const int node = dag->order[o->oracle->order.first + i];

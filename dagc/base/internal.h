@@ -266,5 +266,8 @@ int dag_unit_root(struct unit *unit); /* halves the exponents; 0: one is odd */
 const char *dag_unit_text(struct dag *dag, const struct unit *unit);
 const char *dag_c_name(struct dag *dag, const char *name); /* receiver.area: receiver_area */
 int dag_is_c_word(const char *name); /* keyword of C or C++, or a macro of the headers */
+/* Such a word, or one of own[count], which a text has of its own; what it calls a variable then
+ * gets an underscore. */
+int dag_is_c_taken(const char *name, const char *const *own, size_t count);
 
 #endif

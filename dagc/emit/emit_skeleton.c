@@ -147,10 +147,9 @@ static void print_runtime(struct skeleton *s)
 static const char *variable_of(struct dag *dag, const char *field)
 {
     static const char *const own[] = {"d", "parameters", "decisions"};
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (strcmp(field, own[i]) == 0)
-            return dag_format(&dag->arena, "%s_", field);
-    return field;
+    return dag_is_c_taken(field, own, sizeof own / sizeof *own)
+               ? dag_format(&dag->arena, "%s_", field)
+               : field;
 }
 
 static void print_program(struct skeleton *s)

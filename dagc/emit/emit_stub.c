@@ -66,10 +66,8 @@ static void print_includes(const struct dag *dag, struct text *out, const struct
 static void print_parameter(struct text *out, const struct parameter *parameter)
 {
     static const char *const own[] = {"d", "block", "at", "count", "answers"};
-    int taken = dag_is_c_word(parameter->name);
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        taken |= strcmp(parameter->name, own[i]) == 0;
-    dag_print(out, "%s%s", parameter->name, taken ? "_" : "");
+    dag_print(out, "%s%s", parameter->name,
+              dag_is_c_taken(parameter->name, own, sizeof own / sizeof *own) ? "_" : "");
 }
 
 static void print_tool(const struct dag *dag, struct text *out, const struct tool *tool)

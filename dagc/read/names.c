@@ -136,6 +136,11 @@ int dag_is_c_word(const char *name)
            || is_in(macros, sizeof macros / sizeof *macros, name);
 }
 
+int dag_is_c_taken(const char *name, const char *const *own, size_t count)
+{
+    return dag_is_c_word(name) || is_in(own, count, name);
+}
+
 const char *dag_c_name(struct dag *dag, const char *name)
 {
     char *copy = dag_alloc(&dag->arena, strlen(name) + 1);
