@@ -11,6 +11,7 @@
 #include "util/device.h"
 #include "util/machines.h"
 #include "util/report.h"
+#include "util/saving.h"
 #include "util/stop_signal.h"
 
 /* ---- what the library calls */

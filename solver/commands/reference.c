@@ -25,6 +25,7 @@
 #include "util/machines.h"
 #include "util/progress.h"
 #include "util/report.h"
+#include "util/saving.h"
 #include "util/stop_signal.h"
 #include "util/text_file.h"
 

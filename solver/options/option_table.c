@@ -3,6 +3,7 @@
 #include "options/option_table.h"
 #include "util/array.h"
 #include "util/decimal.h"
+#include "util/ends_with.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* ---- readers */
 
@@ -43,10 +43,7 @@ static int read_flag(struct options *o, const struct option_row *row, const char
 static int read_ending(struct options *o, const struct option_row *row, const char *value)
 {
     const char *const *ending = row->words;
-    size_t length = strlen(value);
-    while (
-        *ending
-        && (length < strlen(*ending) || strcasecmp(value + length - strlen(*ending), *ending) != 0))
+    while (*ending && !ends_with_any_case(value, *ending))
         ending++;
     return *ending ? read_text(o, row, value) : -1;
 }

@@ -14,11 +14,4 @@ void stop_signal_unwatch(void);
 /* Nonzero once one has come while they were watched. */
 int stop_signal_came(void);
 
-/* Is it time to save long work, so many seconds after the last save, which took `took`? After 10 s,
- * and so that saving takes no more than a twentieth of the time. */
-static inline int save_is_due(double since, double took)
-{
-    return since > 10 && since > 20 * took;
-}
-
 #endif
