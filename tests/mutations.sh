@@ -187,7 +187,7 @@ paths know their scatter | runtime/engine/reference.c | s/(half\[h\].scattered +
 weak paths tell, too | runtime/engine/reference.c | s/w < REFERENCE_LEAST/w < 0 * REFERENCE_LEAST/ | runtime/check_reference
 paths go on to their noise | runtime/engine/mended_error.c | s/goal->left > 0 \&\& tally/goal->left > 0 \&\& !tally->by_paths \&\& tally/ | runtime/check_path_mending
 no link spares a ray | runtime/engine/mended_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error
-what touches may hide | runtime/engine/sight_missed.c | s/    return beyond;/    return 0;/ | runtime/check_entries
+what touches may hide | runtime/engine/sight_missed.c | s/        if (beyond)/        if (beyond < 0)/ | runtime/check_entries
 small shades are missed | runtime/engine/sight_cubature.c | s/node->error += missed(l, at);/(void)missed;/ | runtime/check_entries
 parts of polygons count | runtime/engine/exchange_areas.c | s/how->tolerance, scene->input_count,/how->tolerance, tree->h.face_count,/ | runtime/check_entries
 faint pairs see all of each other | runtime/engine/sight_rays.c | s/return clear \* share;/return clear;/ | runtime/check_entries
@@ -268,6 +268,7 @@ sums of groups run over | runtime/engine/separable_sums.c | s/            value\
 shadows grow alike | runtime/engine/sight_rims.c | s/c->grow \* (i + 1)/0 * c->grow * (i + 1)/ | runtime/check_bodies
 short sides have directions | runtime/engine/sight_casting.c | s/SHORT = 1e-6/SHORT = 0/ | runtime/check_bodies
 shadows hide no others | runtime/engine/sight_rims.c | s/beside += s != own/beside += 0 * (s != own)/ | runtime/check_bodies
+shadows that meet are taken twice | runtime/engine/sight_rims.c | s/rim->meets\[own\] = rim->beside > 0/rim->meets[own] = 0/ | runtime/check_bodies
 shadows are beside too soon | runtime/engine/sight_rims.c | s/APART = 1e-6/APART = -0.2/ | runtime/check_bodies
 nothing is seen from within | runtime/engine/sight_casting.c | s/body->foot ? REST_UNTOLD : REST_ALL/REST_ALL/ | runtime/check_bodies
 what no point of a group's rule sees | runtime/kernel/constants.h | s/SHADOW_UNSEEN 0.125/SHADOW_UNSEEN 0.0125/ | runtime/check_entries

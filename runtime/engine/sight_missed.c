@@ -66,41 +66,65 @@ static int is_seen(const struct sight_eyes *eyes, const struct element *face, do
     return 0;
 }
 
-/* Does all of a face lie beyond one side of `to`, but for `near`, as seen from anywhere on `from`,
- * which is in front of it? */
-static int is_beyond(const struct element *face, const struct element *from,
-                     const struct element *to, double near)
+/* The planes through the sides of a polygon and the corners of a piece in front of it. */
+struct side_planes {
+    int sides, corners; /* sides: 0 when the piece is not in front of all of it */
+    const double *at[4];
+    double normal[4][4][3], least[4][4];
+};
+
+/* near: how far to the inner side of a plane is beside it still (m). */
+static void planes_between(struct side_planes *planes, const struct element *piece,
+                           const struct element *to, double near)
 {
-    int beyond = 0;
-    for (int c = 0; c < from->vertices; c++)
-        if (height3(from->vertex[c], to->vertex[0], to->normal) < -near)
-            return 0;
-    for (int i = 0; i < to->vertices && !beyond; i++) {
+    planes->sides = 0;
+    planes->corners = piece->vertices;
+    for (int c = 0; c < piece->vertices; c++)
+        if (height3(piece->vertex[c], to->vertex[0], to->normal) < -near)
+            return;
+    for (int i = 0; i < to->vertices; i++) {
         const double *a = to->vertex[i], *b = to->vertex[i + 1 < to->vertices ? i + 1 : 0];
-        beyond = 1;
-        for (int c = 0; c < from->vertices; c++) {
-            double side[3], sight[3], out[3];
+        planes->at[i] = a;
+        for (int c = 0; c < piece->vertices; c++) {
+            double side[3], sight[3];
             sub3(side, b, a);
-            sub3(sight, from->vertex[c], a);
-            cross3(out, side, sight);
-            for (int k = 0; k < face->vertices; k++)
-                beyond &= height3(face->vertex[k], a, out) >= -near * length3(out);
+            sub3(sight, piece->vertex[c], a);
+            cross3(planes->normal[i][c], side, sight);
+            planes->least[i][c] = -near * length3(planes->normal[i][c]);
         }
     }
-    return beyond;
+    planes->sides = to->vertices;
+}
+
+/* Does all of a face lie beyond one side, as seen from anywhere on the piece? */
+static int is_beyond(const struct element *face, const struct side_planes *planes)
+{
+    for (int i = 0; i < planes->sides; i++) {
+        int beyond = 1;
+        for (int c = 0; c < planes->corners && beyond; c++)
+            for (int k = 0; k < face->vertices && beyond; k++)
+                beyond = height3(face->vertex[k], planes->at[i], planes->normal[i][c])
+                         >= planes->least[i][c];
+        if (beyond)
+            return 1;
+    }
+    return 0;
 }
 
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
                     const uint32_t *faces, int count, struct sight_known *known, double most)
 {
+    struct side_planes of_to, of_piece;
     struct shaft shaft;
     double sum = 0;
     if (!(most > 0) || !shaft_open(&shaft, piece, to, &tree->host))
         return 0;
+    planes_between(&of_to, piece, to, tree->h.flat);
+    planes_between(&of_piece, to, piece, tree->h.flat);
     for (int i = 0; i < count && sum < most; i++) {
         const struct element *face = &tree->h.elements[faces[i]];
-        if (is_beyond(face, piece, to, tree->h.flat) || is_beyond(face, to, piece, tree->h.flat)
+        if (is_beyond(face, &of_to) || is_beyond(face, &of_piece)
             || is_seen(eyes, face, piece->radius)
             || !candidates_meets(&tree->h, &shaft, tree->host.ray_offset, faces[i]))
             continue;

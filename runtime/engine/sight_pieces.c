@@ -89,6 +89,17 @@ double sight_eye_factor(struct sight_eye *eye, double *whole)
     return factor_of(eye->edges.sum);
 }
 
+/* What is left of all by rounding, as a share: less than shadows grow by, and chosen. */
+static const double LEFT = 1e-12;
+
+double sight_eye_left(struct sight_eye *eye, double *whole)
+{
+    sight_eye_sum(eye);
+    *whole = factor_of(eye->edges.whole);
+    const double seen = factor_of(eye->edges.whole + eye->edges.sum);
+    return seen > LEFT * *whole ? fmin(seen, *whole) : 0;
+}
+
 void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell)
 {
     struct sight_edges *g = &eye->edges;

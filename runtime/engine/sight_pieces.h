@@ -65,6 +65,9 @@ static inline void sight_eye_edge(struct sight_eye *eye, const double from[2], c
  * [0, 1].
  */
 double sight_eye_factor(struct sight_eye *eye, double *whole);
+/* The same when only what is taken away of the polygon was added, turned; 0 of what rounding may
+ * leave of all. */
+double sight_eye_left(struct sight_eye *eye, double *whole);
 
 static inline void sight_in_plane(const struct outline_frame *f, const double p[3], double out[3])
 {

@@ -1,14 +1,15 @@
 /* sight_rims.c - what a point sees of a convex polygon past convex solids, by the rims of their
  * shadows.
  *
- * The union of the shadows is not cut out: Lambert's sum goes around what is seen, and that is the
- * rim of the polygon, as far as it is no shadow's, and the rims of shadows, the other way round, as
- * far as they lie in the polygon and outside of the others. How far that is, is an interval of an
- * edge for each shadow. Each shadow grows more than the one before, by far less than counts: of two
- * edges in one place one is inside of the other's shadow, or both are. Where a shadow is not told
- * (sight_casting.c), or what was gone around is not closed, the point is not told, and its shadows
- * are to be cut out face by face (sight_pieces.c). Invariant: as sight_pieces.c, but for how far
- * shadows grow. [the rim of a union of convex polygons, edge by edge; derived here]
+ * The union of the shadows is not cut out: what is seen is all of the polygon less that union, and
+ * Lambert's sum goes around it, the other way round: along the rims of shadows as far as they lie
+ * outside of the others, and along the polygon's sides as far as these are hidden. How far that is,
+ * is an interval of an edge for each shadow; one that no other meets is taken away by itself. Each
+ * shadow grows more than the one before, by far less than counts: of two edges in one place one is
+ * inside of the other's shadow, or both are. Where a shadow is not told (sight_casting.c), or what
+ * was gone around is not closed, the point is not told, and its shadows are to be cut out face by
+ * face (sight_pieces.c). Invariant: as sight_pieces.c, but for how far shadows grow. [the rim
+ * of a union of convex polygons, edge by edge; derived here]
  * SPDX-License-Identifier: MIT */
 #include "engine/sight_rims.h"
 #include "engine/sight_casting.h"
@@ -20,12 +21,13 @@ static const double OPEN = 1e-9;
 /* What is wider apart than so much of the polygon's size is apart, whatever shadows grow by. */
 static const double APART = 1e-6;
 
-/* The rim of what is seen, added edge by edge. */
+/* The rim of what is hidden, added edge by edge. */
 struct rim {
     struct sight_eye eye;
     struct casting cast;
     double box[SIGHT_BODIES][4]; /* around shadows, APART wider: low and high of each coordinate */
     int beside, other[SIGHT_BODIES]; /* shadows whose box meets that of the one at work */
+    int meets[SIGHT_BODIES];         /* 1: there is one */
     double open;                     /* what is counted where edges end, less where they begin */
 };
 
@@ -84,25 +86,42 @@ static inline double count_corner(const struct casting *c, const double p[2])
     return u * (1 + u * (0.61 + v)) + v * (0.43 + v * (0.74 + u));
 }
 
-/* Adds what is left of the edge from p to q; turned: from q to p. */
-static void add_rest(struct rim *rim, const double p[2], const double q[2],
-                     const struct hidden_parts *parts, int turned)
+/* Takes away along a part of the edge from p to q. */
+static void take_along(struct rim *rim, const double p[2], const double q[2], double from,
+                       double to)
+{
+    double a[2], b[2];
+    for (int k = 0; k < 2; k++) {
+        a[k] = from > 0 ? p[k] + from * (q[k] - p[k]) : p[k];
+        b[k] = to < 1 ? p[k] + to * (q[k] - p[k]) : q[k];
+    }
+    sight_eye_edge(&rim->eye, b, a);
+    rim->open += count_corner(&rim->cast, a) - count_corner(&rim->cast, b);
+}
+
+/* Takes away along what others do not hide of a shadow's edge. */
+static void take_outside(struct rim *rim, const double p[2], const double q[2],
+                         const struct hidden_parts *parts)
 {
     double last = 0;
     for (int i = 0; i <= parts->count; i++) {
         const double end = i < parts->count ? parts->low[i] : 1;
-        if (end > last) {
-            double a[2], b[2];
-            for (int k = 0; k < 2; k++) {
-                a[k] = last > 0 ? p[k] + last * (q[k] - p[k]) : p[k];
-                b[k] = end < 1 ? p[k] + end * (q[k] - p[k]) : q[k];
-            }
-            sight_eye_edge(&rim->eye, turned ? b : a, turned ? a : b);
-            const double count = count_corner(&rim->cast, b) - count_corner(&rim->cast, a);
-            rim->open += turned ? -count : count;
-        }
+        if (end > last)
+            take_along(rim, p, q, last, end);
         if (i < parts->count && parts->high[i] > last)
             last = parts->high[i];
+    }
+}
+
+/* Takes away along what is hidden of a side of the polygon. */
+static void take_hidden(struct rim *rim, const double p[2], const double q[2],
+                        const struct hidden_parts *parts)
+{
+    for (int i = 0, next; i < parts->count; i = next) {
+        double high = parts->high[i];
+        for (next = i + 1; next < parts->count && parts->low[next] <= high; next++)
+            high = parts->high[next] > high ? parts->high[next] : high;
+        take_along(rim, p, q, parts->low[i], high);
     }
 }
 
@@ -113,7 +132,7 @@ static double place_on(const double p[2], const double q[2], const double x[2])
     return ((x[0] - p[0]) * u + (x[1] - p[1]) * v) / (u * u + v * v);
 }
 
-/* What is seen of the polygon's own side i. */
+/* What shadows that meet others hide of the polygon's own side i. */
 static void add_own(struct rim *rim, const struct outline_cell *cell, int i)
 {
     const struct casting *c = &rim->cast;
@@ -123,7 +142,7 @@ static void add_own(struct rim *rim, const struct outline_cell *cell, int i)
     for (int s = 0; s < c->count; s++) {
         const struct body_shadow *shadow = &c->shadow[s];
         double low = 1, high = 0;
-        for (int k = 0; k < shadow->n; k++)
+        for (int k = 0; k < shadow->n && rim->meets[s]; k++)
             if (shadow->by[k] == i) {
                 const double t0 = place_on(p, q, shadow->p[k]),
                              t1 = place_on(p, q, shadow->p[k + 1 < shadow->n ? k + 1 : 0]);
@@ -132,7 +151,7 @@ static void add_own(struct rim *rim, const struct outline_cell *cell, int i)
             }
         add_hidden(&parts, low, high);
     }
-    add_rest(rim, p, q, &parts, 0);
+    take_hidden(rim, p, q, &parts);
 }
 
 static int boxes_meet(const double a[4], const double b[4])
@@ -150,7 +169,7 @@ static void find_others(struct rim *rim, int own)
     }
 }
 
-/* What is seen beside an edge from p to q of the shadow at work. */
+/* What is hidden beside an edge from p to q of the shadow at work. */
 static void add_edge(struct rim *rim, const double p[2], const double q[2])
 {
     const struct casting *c = &rim->cast;
@@ -170,16 +189,20 @@ static void add_edge(struct rim *rim, const double p[2], const double q[2])
         }
         add_hidden(&parts, low, high);
     }
-    add_rest(rim, p, q, &parts, 1);
+    take_outside(rim, p, q, &parts);
 }
 
+/* Of a shadow that meets no other one the edges on the polygon's sides do for these. */
 static void add_shadow(struct rim *rim, int own)
 {
     const struct body_shadow *shadow = &rim->cast.shadow[own];
     find_others(rim, own);
-    for (int i = 0; i < shadow->n; i++)
-        if (shadow->by[i] >= POLYGON_MAX)
-            add_edge(rim, shadow->p[i], shadow->p[i + 1 < shadow->n ? i + 1 : 0]);
+    rim->meets[own] = rim->beside > 0;
+    for (int i = 0, j = shadow->n - 1; i < shadow->n; j = i++)
+        if (!rim->meets[own])
+            sight_eye_edge(&rim->eye, shadow->p[i], shadow->p[j]);
+        else if (shadow->by[j] >= POLYGON_MAX)
+            add_edge(rim, shadow->p[j], shadow->p[i]);
 }
 
 /* How far a point is to be above the plane, in steps off its surface: lower down that step decides
@@ -208,20 +231,16 @@ double sight_rims_past(const struct sight *sight, const double x[3], const doubl
             sight_casting_add(&rim.cast, bodies, &bodies->body[i], cell, c->grow * (i + 1));
         if (rest == REST_UNTOLD)
             return -1;
-        if (rest == REST_ALL)
-            return sight_eye_factor(&rim.eye, whole);
-    }
-    if (c->count == 0) {
-        (void)sight_eye_factor(&rim.eye, whole);
-        return *whole;
+        if (rest == REST_ALL) {
+            (void)sight_eye_left(&rim.eye, whole);
+            return 0;
+        }
     }
     find_boxes(&rim);
-    for (int i = 0; i < cell->n; i++)
-        add_own(&rim, cell, i);
     for (int s = 0; s < c->count; s++)
         add_shadow(&rim, s);
-    const double seen = sight_eye_factor(&rim.eye, whole);
-    if (!(fabs(rim.open) <= OPEN))
-        return -1;
-    return seen < *whole ? seen : *whole;
+    for (int i = 0; i < cell->n; i++)
+        add_own(&rim, cell, i);
+    const double seen = sight_eye_left(&rim.eye, whole);
+    return fabs(rim.open) <= OPEN ? seen : -1;
 }
