@@ -47,7 +47,7 @@ static uint64_t key_of(const struct element *piece, enum asked asked)
 static int find(struct sight_known *known, uint64_t piece, uint32_t face, double **value)
 {
     const uint64_t key = hash64(piece + face) | 1;
-    struct sight_known_place *place = &known->place[(key >> 1) % SIGHT_KNOWN];
+    struct sight_known_place *place = &known->place[(piece + face) % SIGHT_KNOWN];
     const int is = place->key == key;
     place->key = key;
     *value = place->value;
