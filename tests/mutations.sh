@@ -210,7 +210,7 @@ scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(o
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice
 a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
-light goes through solids | runtime/engine/sight_cubature.c | s/l->ends.joined && bodies_hold/0 * l->ends.joined \&\& bodies_hold/ | runtime/check_stacked
+light goes through solids | runtime/engine/sight_look.c | s/l->joined && bodies_hold/0 * l->joined \&\& bodies_hold/ | runtime/check_stacked
 what is not convex covers nothing | runtime/engine/exchange_contacts.c | s/return told > 0 \&\&/return told < 0 \&\&/ | runtime/check_stacked
 what rays take for backs | runtime/engine/exchange.c | s/if (more >= off)/if (0 * more > off)/; s/more <= -off/fabs(more) >= off/ | runtime/check_stacked
 what reaches in tells that nothing is solid | runtime/engine/exchange_contacts.c | s/MOST_BACKS = 0.5/MOST_BACKS = 0.75/ | runtime/check_stacked

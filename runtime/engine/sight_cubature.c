@@ -3,7 +3,7 @@
  *
  * Of each face only what lies in front of the other's plane takes part. From a piece nothing stands
  * between (then it has the exact factor), or all is hidden, both proved by a shaft; else a rule of
- * points, each of which sees the other face exactly (sight_pieces.c): it tells which share of what
+ * points, each of which sees the other face exactly (sight_look.h): it tells which share of what
  * the piece would exchange with nothing between, which is exact, it does exchange. A piece is held
  * against a rule with points along its rim, since shades as of a sill are seen from there alone,
  * and against its four quarters; these count. Two rules may agree by chance; so what the best
@@ -24,12 +24,11 @@
 #include "engine/face_rule.h"
 #include "engine/sight_cubature.h"
 #include "engine/sight_lists.h"
+#include "engine/sight_look.h"
 #include "engine/sight_missed.h"
 #include "engine/sight_near.h"
-#include "engine/sight_outlines.h"
 #include "engine/sight_parts.h"
 #include "engine/sight_rays.h"
-#include "engine/sight_rims.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/shaft.h"
@@ -52,13 +51,12 @@ struct sight_node {
 /* A pair at work. */
 struct looking {
     struct sight_ends ends;
-    struct sight sight; /* of `to` */
+    struct sight_look look;
     struct sight_scratch *scratch;
     struct sight_limits limits;
     double least; /* the smaller area (m2) */
     int nodes, roots, heap;
     int cast;             /* of the nodes, by rays */
-    int by_bodies;        /* 1: what is in scratch->between is in scratch->bodies */
     int shared;           /* 1: scratch->between is the pair's, and does for all pieces */
     int between_of;       /* else: the node that it is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
@@ -98,51 +96,6 @@ static uint32_t *list_of(const struct looking *l, int at)
     return l->scratch->lists + (size_t)at * (size_t)l->scratch->limits.list;
 }
 
-/* What stands between, for points to look past it; by solids no more than can be cut out, which a
- * point does that these do not tell. Returns -1 when it is too much. */
-static int place_between(struct looking *l)
-{
-    struct sight_between *b = l->scratch->between;
-    l->by_bodies = !b->bent && b->faces <= SIGHT_CUT
-                   && sight_bodies_place(l->scratch->bodies, l->ends.tree, b->list, b->faces,
-                                         &l->sight.raised);
-    return l->by_bodies ? 0 : sight_between_place(b, l->ends.tree, &l->sight);
-}
-
-/* What a point sees past what stands between: solids, if they alone do, by the rims of their
- * shadows, unless rounding leaves open where these run. Else outlines save most where faces go on
- * into each other; faces by themselves, and bent ones, are cut out one by one. Many faces leave
- * parts that each meet few of them, and many edges part what is hidden, too. */
-static double past_faces(const struct looking *l, const double x[3], const double n[3],
-                         double *whole)
-{
-    struct sight_between *b = l->scratch->between;
-    const double up = l->ends.tree->lift;
-    if (l->by_bodies) {
-        const double seen = sight_rims_past(&l->sight, x, n, up, l->scratch->bodies, whole);
-        if (seen >= 0)
-            return seen;
-        return sight_factor(&l->sight, x, n, up, l->ends.tree, b->list, b->faces, whole);
-    }
-    /* edges of two faces; measured */
-    const int most = b->faces > SIGHT_SHORT && b->faces <= SIGHT_CUT ? 3 : 4;
-    return !b->bent && 2 * b->edges <= most * b->faces
-               ? sight_past(&l->sight, x, n, up, b, whole)
-               : sight_factor(&l->sight, x, n, up, l->ends.tree, b->list, b->faces, whole);
-}
-
-/* Faces in the plane of an end stand before nothing there, as rays start beyond them. A solid that
- * joins both ends has one in the plane of each, and from where it stands only its sides would stop
- * what goes through it; so points in it see nothing. */
-static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
-{
-    const double seen = past_faces(l, x, n, whole), up = l->ends.tree->host.ray_offset;
-    const double over[3] = {x[0] + up * n[0], x[1] + up * n[1], x[2] + up * n[2]};
-    return l->ends.joined && bodies_hold(&l->ends.tree->bodies, &l->ends.tree->h, l->ends.on, over)
-               ? 0
-               : seen;
-}
-
 /* What the points within a piece see of the other face, and would; `rim`: those on its rim. Returns
  * the means over the piece. */
 static struct mean {
@@ -155,7 +108,7 @@ static struct mean {
     for (int i = 0; i < rule.count; i++) {
         const double x[3] = {rule.x[0][i], rule.x[1][i], rule.x[2][i]};
         if (!(rim && e->vertices == 4 && i == FACE_MIDDLE)) /* the middle is seen already */
-            seen[i] = past(l, x, e->normal, &whole[i]);
+            seen[i] = sight_look_from(&l->look, x, e->normal, &whole[i]);
         sum.seen += rule.weight[i] * seen[i] / rule.all;
         sum.whole += rule.weight[i] * whole[i] / rule.all;
     }
@@ -206,7 +159,7 @@ static enum between find_between(struct looking *l, const struct element *piece,
         }
         stands = sight_between_find(between, l->ends.tree, &shaft, list, count, 0);
     }
-    return stands == BETWEEN_SOME && place_between(l) < 0 ? BETWEEN_MANY : stands;
+    return stands == BETWEEN_SOME && sight_look_place(&l->look) < 0 ? BETWEEN_MANY : stands;
 }
 
 /* What was found to stand before a piece is of use to its quarters. Returns how much that is. */
@@ -312,7 +265,7 @@ static double missed(const struct looking *l, int at)
     struct sight_eyes eyes;
     if (!(node->piece.area * most > l->ends.from->area))
         return 0;
-    sight_eyes_open(&eyes, &l->sight, l->ends.tree->lift, enough);
+    sight_eyes_open(&eyes, &l->look.sight, l->ends.tree->lift, enough);
     sight_eyes_add(&eyes, &node->piece);
     for (int q = 0; q < QUARTERS && node->quarters; q++)
         sight_eyes_add(&eyes, &quarters[q].piece);
@@ -471,6 +424,11 @@ double sight_integrate(const struct sight_ends *ends, struct sight_scratch *scra
     const struct element *from = ends->from, *to = ends->to;
     const struct sight_between *between = scratch->between;
     struct looking l = {.ends = *ends,
+                        .look = {.tree = t,
+                                 .between = scratch->between,
+                                 .bodies = scratch->bodies,
+                                 .on = ends->on,
+                                 .joined = ends->joined},
                         .scratch = scratch,
                         .limits = sight_limits_of(&scratch->limits, t, from, to),
                         .least = fmin(from->area, to->area)};
@@ -480,10 +438,10 @@ double sight_integrate(const struct sight_ends *ends, struct sight_scratch *scra
     *error = 0;
     if (part.n == 0 || seen.n == 0)
         return 0;
-    sight_open(&l.sight, to, &seen, t->lift);
+    sight_open(&l.look.sight, to, &seen, t->lift);
     /* of bent faces one too many may hide what it does not stand before */
-    l.shared =
-        ends->found && !between->bent && between->faces <= SIGHT_SHARED && place_between(&l) == 0;
+    l.shared = ends->found && !between->bent && between->faces <= SIGHT_SHARED
+               && sight_look_place(&l.look) == 0;
     integrate(&l, &part, all);
     *error = sqrt(fmax(l.square, 0));
     const double sum = fmax(l.value, 0);
