@@ -111,6 +111,8 @@ int dim_is_sure(const struct dim_faces *d, const struct dim_polygon *p)
 
 double dim_mean(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
 {
+    if (!p->reflects[band])
+        return p->mended[band];
     double weight = belief(d, p), split = split_weight(d, p),
            both = (1 - weight) * p->mended[band] + weight * p->sum[band] / (double)p->paths;
     return (1 - split) * both + split * p->split[band];

@@ -18,6 +18,11 @@
  * particles together know them all: mending tells how far off it leaves clusters and faces by the
  * number that met them (mend_clusters.c), and what is right to DIM_GOAL by that is known.
  *
+ * What reflects none of the colours that lamps have is dark, for sure, and is not asked. Of light
+ * in bands in which a polygon reflects nothing paths say nothing that counts: there it keeps what
+ * particles know, or the paths' noise, by much light that ends there, would be taken from all
+ * others.
+ *
  * A polygon whose paths all meet nothing is one that touches what it is turned to, as a cupboard's
  * back does a wall: it is dark, and no more is asked.
  *
@@ -65,6 +70,7 @@ static void weigh(const struct dim_faces *d, const struct tally *tally,
             double part =
                 d->solve->mended.irradiance[at] * tracer_surface(t, d->face[i])->area / p->area;
             p->mended[k] += part;
+            p->reflects[k] |= t->reflectance[(size_t)d->face[i] * t->bands + k] > 0;
             p->light += t->reflectance[(size_t)d->face[i] * t->bands + k] * part;
         }
     p->variance = fmax(noise + one * one, (p->light - counted) * (p->light - counted));
@@ -276,7 +282,7 @@ static int all_sure(const struct dim_faces *d)
 static const struct dim_polygon *polygon_of(const struct dim_faces *d, uint32_t face)
 {
     uint32_t of = d->of[d->part[face]];
-    return of != NOT_DIM && tracer_reflectance(d->tracer, face) > 0 ? &d->polygon[of] : NULL;
+    return of != NOT_DIM && dim_list_reflects(d, face) ? &d->polygon[of] : NULL;
 }
 
 /* The power of two that is nearest. The last digits of a solution are other ones on several ranks:

@@ -21,11 +21,29 @@ static int by_area(const void *a, const void *b)
                               : (x->part > y->part) - (x->part < y->part);
 }
 
+/* In which bands there is light at all. */
+static void find_lit(struct dim_faces *d)
+{
+    const struct tracer *t = d->tracer;
+    for (uint32_t i = 0; i < t->hierarchy->face_count; i++)
+        for (uint32_t k = 0; k < t->bands; k++)
+            d->lit[k] |= t->exitance[(size_t)i * t->bands + k] > 0;
+}
+
+int dim_list_reflects(const struct dim_faces *d, uint32_t face)
+{
+    const struct tracer *t = d->tracer;
+    int any = 0;
+    for (uint32_t k = 0; k < t->bands; k++)
+        any |= d->lit[k] && t->reflectance[(size_t)face * t->bands + k] > 0;
+    return any && tracer_reflectance(t, face) > 0;
+}
+
 static double open_area(const struct dim_faces *d, uint32_t face)
 {
     const struct tracer *t = d->tracer;
     const double uncovered = d->solve->operator.uncovered[t->hierarchy->face_element[face]];
-    return tracer_reflectance(t, face) > 0 ? uncovered * tracer_surface(t, face)->area : 0;
+    return dim_list_reflects(d, face) ? uncovered * tracer_surface(t, face)->area : 0;
 }
 
 /* [parts]: the area of each candidate (m2), 0 where nothing is lit; the caller's. NULL when out of
@@ -110,7 +128,7 @@ static void list_faces(struct dim_faces *d)
     const struct hierarchy *h = t->hierarchy;
     uint32_t next = 0;
     for (uint32_t i = 0; i < h->face_count; i++)
-        if (tracer_reflectance(t, i) > 0 && d->of[d->part[i]] != NOT_DIM)
+        if (dim_list_reflects(d, i) && d->of[d->part[i]] != NOT_DIM)
             d->polygon[d->of[d->part[i]]].to++;
     for (uint32_t j = 0; j < d->count; j++) {
         struct dim_polygon *p = &d->polygon[j];
@@ -119,7 +137,7 @@ static void list_faces(struct dim_faces *d)
         p->to = p->from;
     }
     for (uint32_t i = 0; i < h->face_count; i++)
-        if (tracer_reflectance(t, i) > 0 && d->of[d->part[i]] != NOT_DIM) {
+        if (dim_list_reflects(d, i) && d->of[d->part[i]] != NOT_DIM) {
             struct dim_polygon *p = &d->polygon[d->of[d->part[i]]];
             p->area += tracer_surface(t, i)->area;
             d->until[p->to] = p->area;
@@ -129,6 +147,7 @@ static void list_faces(struct dim_faces *d)
 
 int dim_list_open(struct dim_faces *d, uint32_t most)
 {
+    find_lit(d);
     if (ranks_any(d->tracer->ranks, find_parts(d) < 0 || list_polygons(d, most) < 0))
         return -1;
     list_faces(d);

@@ -18,6 +18,7 @@ struct dim_polygon {
     double light;      /* what it reflects once mended, mean over it, all bands (W/m2) */
     double variance;   /* s^2 of that */
     double mended[3];  /* mean irradiance once mended (W/m2) */
+    int reflects[3];   /* bands: does any of its faces? */
     int asked;         /* 1: may be asked by paths; 0: there are too many */
     int told;          /* 1: known by what mending leaves of its error */
     int planned;       /* 1: is to reach DIM_GOAL */
@@ -53,6 +54,7 @@ struct dim_faces {
     uint32_t parts, *of;        /* [parts]: place in `polygon`; or NOT_DIM */
     struct dim_polygon *polygon;
     uint32_t count;
+    int lit[3];      /* bands: does any face emit in it? In others all is dark */
     double large;    /* as small as large ones are (m2) */
     uint32_t *face;  /* [faces]: by polygon */
     double *until;   /* [faces]: running sums of their areas in the polygon (m2) */

@@ -469,6 +469,51 @@ START_TEST(test_bright)
 }
 END_TEST
 
+/* A red lamp for a ceiling, and one wall that reflects red; what the others reflect no lamp emits,
+ * so that they are dark for sure and nobody asks for their light; or only one outside of
+ * the room does, which paths cannot know. What they receive of the red lamp's light is none of
+ * their light, and not for paths to change: the red wall keeps what it has, F. */
+static void other_colours(int green_lamp)
+{
+    const double F = 0.2000437760754032;
+    static const double at[3] = {5, 0, 0}, along[3][3] = {{0, 0.1, 0}, {0.1, 0, 0}, {0, 0, 0.1}};
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    made_open(&scene);
+    scene.bands = 3;
+    const uint32_t cyan = made_material(&scene, 0, 0), red = made_material(&scene, 0, 0),
+                   lamp = made_material(&scene, 0, 0), green = made_material(&scene, 0, 0);
+    scene.materials[cyan].reflectance[1] = scene.materials[cyan].reflectance[2] = 0.5;
+    scene.materials[red].reflectance[0] = 0.3;
+    scene.materials[lamp].exitance[0] = 1;
+    scene.materials[green].exitance[1] = 1;
+    const uint32_t walls[6] = {red, cyan, cyan, cyan, cyan, lamp};
+    made_room(&scene, walls, 1, 1, 1);
+    if (green_lamp)
+        made_box(&scene, green, at, along, 0);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(2));
+    mend_all(&s, 1e-2, 200000, &alone);
+    ck_assert_uint_eq(alone.dim.large, green_lamp ? 5 : 1);
+    ck_assert_uint_eq(alone.dim.unsure, green_lamp ? 4 : 0);
+    ck_assert_double_eq_tol(s.mended.irradiance[3 * s.hierarchy.face_element[0]] / F, 1, 0.003);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+
+START_TEST(test_other_colours)
+{
+    other_colours(0);
+}
+END_TEST
+
+START_TEST(test_lamp_outside)
+{
+    other_colours(1);
+}
+END_TEST
+
 /* A thousand paths that agree about a tenth of what particles count, to a tenth of that, have
  * missed what the rest comes from; those that say nearly the same know it best. */
 START_TEST(test_missed)
@@ -578,6 +623,8 @@ int main(void)
     tcase_add_test(tests, test_small_told);
     tcase_add_test(tests, test_dim_places);
     tcase_add_test(tests, test_bright);
+    tcase_add_test(tests, test_other_colours);
+    tcase_add_test(tests, test_lamp_outside);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
 }
