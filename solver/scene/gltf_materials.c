@@ -121,6 +121,34 @@ static int has_texture(const json_t *material)
            || json_object_get(material, "emissiveTexture");
 }
 
+/* Does light pass through it? */
+static int is_transparent(const json_t *material)
+{
+    const char *mode = json_string_value(json_object_get(material, "alphaMode"));
+    const json_t *pbr = json_object_get(material, "pbrMetallicRoughness"),
+                 *passes = json_object_get(json_object_get(json_object_get(material, "extensions"),
+                                                           "KHR_materials_transmission"),
+                                           "transmissionFactor");
+    return (mode && strcmp(mode, "BLEND") == 0
+            && number(json_object_get(pbr, "baseColorFactor"), 3, 1) < 1)
+           || json_number_value(passes) > 0;
+}
+
+/* What is in the file's materials and not in ours. */
+static void warn_of_materials(const char *path, const json_t *materials)
+{
+    unsigned textured = 0, transparent = 0;
+    for (size_t i = 0; i < json_array_size(materials); i++) {
+        textured += has_texture(json_array_get(materials, i)) != 0;
+        transparent += is_transparent(json_array_get(materials, i)) != 0;
+    }
+    if (textured)
+        report_warning(path, 0, "textures are passed over; the factors of materials hold");
+    if (transparent)
+        report_warning(path, 0, "transparent materials are taken as opaque (%u materials)",
+                       transparent);
+}
+
 /* What says nothing of shapes, or what the library reads or refuses itself (Draco). */
 static int is_harmless(const char *extension)
 {
@@ -167,11 +195,8 @@ int gltf_materials(struct scene_file *f, const char *path, int quiet)
     for (uint32_t i = 0; i < f->material_count && !result; i++)
         if (!material_name_read(f->names[i], &f->materials[i]))
             result = apply_strength(f, path, materials, i);
-    for (size_t i = 0; i < json_array_size(materials) && !quiet && !result; i++)
-        if (has_texture(json_array_get(materials, i))) {
-            report_warning(path, 0, "textures are passed over; the factors of materials hold");
-            break;
-        }
+    if (!quiet && !result)
+        warn_of_materials(path, materials);
     json_decref(root);
     return result;
 }

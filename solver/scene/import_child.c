@@ -66,7 +66,7 @@ struct child {
  * its length and its bytes; then groups and objects: their polygons' parts, and names so. */
 struct header {
     uint64_t position_count, index_count;
-    uint32_t polygon_count, material_count, group_count, object_count, other;
+    uint32_t polygon_count, material_count, group_count, object_count, other, lights;
     int32_t single_precision;
 };
 
@@ -153,9 +153,9 @@ static void send_parts(FILE *to, const struct part_names *p, uint32_t polygons)
 
 static int send_file(FILE *to, const struct scene_file *f)
 {
-    const struct header h = {f->position_count, f->index_count,     f->polygon_count,
-                             f->material_count, f->groups.count,    f->objects.count,
-                             f->other,          f->single_precision};
+    const struct header h = {f->position_count, f->index_count,  f->polygon_count,
+                             f->material_count, f->groups.count, f->objects.count,
+                             f->other,          f->lights,       f->single_precision};
     send(to, &h, sizeof h, 1);
     send(to, f->positions, 3 * sizeof *f->positions, f->position_count);
     send(to, f->indices, sizeof *f->indices, f->index_count);
@@ -301,6 +301,7 @@ static int receive_file(struct child *c, struct scene_file *f)
     f->polygon_count = h.polygon_count;
     f->polygon_capacity = h.polygon_count;
     f->other = h.other;
+    f->lights = h.lights;
     f->single_precision = h.single_precision;
     int result = receive_array(c, &f->positions, f->position_count, 3 * sizeof *f->positions);
     if (!result)

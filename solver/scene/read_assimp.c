@@ -134,6 +134,7 @@ static int convert(struct reader *r, const struct aiScene *from)
 {
     struct aiMatrix4x4 identity;
     r->assimp->aiIdentityMatrix4(&identity);
+    r->file->lights = from->mNumLights;
     if (read_materials(r, from) || read_node(r, from, from->mRootNode, &identity))
         return -1;
     return 0;

@@ -218,6 +218,16 @@ int scene_file_check_rounding(const struct scene_file *f, const char *path,
                         (unsigned long)r->dropped, (unsigned long)r->polygons, far, rounding);
 }
 
+/* A room that such light fills where the file was made is dark here. */
+static void warn_of_lights(const struct scene_file *f, const char *path)
+{
+    if (f->lights)
+        report_warning(path, 0,
+                       "lights without a surface, as points and suns, are passed over: faces emit, "
+                       "by the emissive colour of their material (%lu lights)",
+                       (unsigned long)f->lights);
+}
+
 int scene_file_read(struct scene_file *f, const char *path, const struct scene_options *options)
 {
     const int gltf = ends_with_any_case(path, ".gltf") || ends_with_any_case(path, ".glb");
@@ -245,8 +255,10 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
             f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");
         result = check_materials(f, path);
     }
-    if (!result && !options->quiet)
+    if (!result && !options->quiet) {
         warn_of_rounding(f, path);
+        warn_of_lights(f, path);
+    }
     if (result)
         scene_file_free(f);
     return result;

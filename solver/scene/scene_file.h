@@ -41,7 +41,8 @@ struct scene_file {
     struct part_names groups, objects;
     /* 1: positions have been floats, as Assimp keeps them; numbers of a text may say more */
     int single_precision;
-    uint32_t other; /* points and lines of the file, which are no faces */
+    uint32_t other;  /* points and lines of the file, which are no faces */
+    uint32_t lights; /* that are no faces either, as points and suns; what Assimp reads */
 };
 
 struct scene_options {

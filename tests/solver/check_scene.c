@@ -936,6 +936,43 @@ START_TEST(test_gltf_extensions)
 }
 END_TEST
 
+/* What a file has and a scene has not is told, and nothing of one that has none of it. */
+START_TEST(test_gltf_told)
+{
+    static const char lights[] =
+        "{\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":{\"KHR_lights_punctual\":{"
+        "\"lights\":[{\"type\":\"point\",\"name\":\"p\"}]}},";
+    static const struct {
+        const char *from, *to, *told;
+    } cases[] = {
+        {"{", "{", NULL},
+        {"0.75,1]", "0.75,0.5]", NULL}, /* alpha says nothing without its mode */
+        {"0.75,1]},", "0.75,0.5]},\"alphaMode\":\"BLEND\",", "opaque (1 materials)"},
+        {"\"doubleSided\"",
+         "\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":0.9}},"
+         "\"doubleSided\"",
+         "opaque (1 materials)"},
+        {"\"mesh\":0,", "\"mesh\":0,\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}},",
+         "material (1 lights)"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[2048], more[2600];
+        struct scene s;
+        snprintf(text, sizeof text, GLTF, "false");
+        const char *at = strstr(text, cases[i].from);
+        const int has_light = strstr(cases[i].to, "punctual") != NULL;
+        snprintf(more, sizeof more, "%s%.*s%s%s", has_light ? lights : "",
+                 (int)(at - text) - has_light, text + has_light, cases[i].to,
+                 at + strlen(cases[i].from));
+        ck_assert_msg(read_scene(&s, write_text("w.gltf", more), NULL) == 0, "%s", last_error);
+        ck_assert_uint_eq(s.face_count, 2);
+        scene_free(&s);
+        ck_assert_msg(cases[i].told ? strstr(last_error, cases[i].told) != NULL : !*last_error,
+                      "case %zu: '%s'", i, last_error);
+    }
+}
+END_TEST
+
 /* What the lamp emits, and what faces without a material reflect. */
 START_TEST(test_gltf_materials)
 {
@@ -1321,6 +1358,7 @@ int main(void)
     tcase_add_test(t, test_gltf);
     tcase_add_test(t, test_libraries_of_windows);
     tcase_add_test(t, test_gltf_extensions);
+    tcase_add_test(t, test_gltf_told);
     tcase_add_test(t, test_gltf_materials);
     tcase_add_test(t, test_ply);
     tcase_add_test(t, test_ply_strips);
