@@ -1013,8 +1013,9 @@ struct RadAccountOptions {
 /* Estimates are what the links and a few points of each leaf make likely: discretization, form
  * factor and visibility before they are reflected on (signs differ, so that they cancel when they
  * are gathered again), the others after all reflections; together: as of independent causes, but
- * for discretization, cap and solver, whose signs are known and which mend each other. They cannot
- * know of light that no link stands for, nor of what links between groups lose.
+ * for discretization, cap and solver, whose signs are known and which mend each other, and no more
+ * than the bound, where there is one. They cannot know of light that no link stands for, nor of
+ * what links between groups lose.
  *
  * All are of one value per element. Of RAD_BASIS_LINEAR they are what the same links would leave
  * without slopes; radMeasureError knows slopes.

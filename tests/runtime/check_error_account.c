@@ -252,6 +252,7 @@ static void judge(struct results *r, const struct scene *scene, const struct tru
                  bound[NORMS] = {b.l1, b.l2, b.linf},
                  near[NORMS] = {about.l1, about.l2, about.linf};
     for (int k = 0; k < NORMS; k++) {
+        ck_assert_double_le(near[k], bound[k]); /* what cannot be is not likely */
         if (!(bound[k] >= error[k])) {
             printf("%s %s: %u faces, %u elements: true %.17g, bound %.17g\n", oracles[with].oracle,
                    norm_names[k], scene->face_count, s.hierarchy.count, error[k], bound[k]);
@@ -537,6 +538,26 @@ START_TEST(test_perturbed)
 }
 END_TEST
 
+/* What each link of a furnace is off by the others make good, and that is proved: no more than what
+ * is proved is told as likely. */
+START_TEST(test_likely_is_possible)
+{
+    struct scene scene;
+    struct solve s;
+    struct RadAccountReport report;
+    furnace_cube(&scene, 0.5);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
+    make_account(&s, NULL, &report);
+    const struct RadErrorNorms *most = &report.bound[RAD_CATEGORY_TOGETHER],
+                               *likely = &report.estimate[RAD_CATEGORY_TOGETHER];
+    ck_assert_double_le(likely->l1, most->l1);
+    ck_assert_double_le(likely->l2, most->l2);
+    ck_assert_double_le(likely->linf, most->linf);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* rho that may reach 1 has no bound, and is told to have none. */
 START_TEST(test_no_bound)
 {
@@ -786,6 +807,7 @@ int main(void)
     tcase_add_test(answers, test_boxes);
     tcase_add_test(answers, test_perturbed);
     tcase_add_test(answers, test_no_bound);
+    tcase_add_test(answers, test_likely_is_possible);
     suite_add_tcase(suite, answers);
     TCase *parts = tcase_create("parts");
     tcase_set_timeout(parts, 300);
