@@ -748,7 +748,8 @@ enum { RAD_UNSURE_NAMED = 100 };
 /* Errors are those of the light that is reflected, B - E: to E nothing can be wrong. */
 struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
-    struct RadMeasure l1_faces; /* sum over polygons and bands of the modulus */
+    /* sum over polygons and bands of the modulus; no less than what of power is sure */
+    struct RadMeasure l1_faces;
     /* over the surfaces, of what RadMeasureOptions.surfaces asked for, slopes included: root of
      * the integral of the squared error over that of (B - E)^2; and what 99.9 % of the area is
      * below, over the area mean of B - E */

@@ -202,6 +202,7 @@ a class that none has met is sure | runtime/engine/polygon_counts.c | s/seen\[k\
 what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->error, element), 0)/fmax(truth_of(s, seen->error, element), 1)/ | solver/check_error_image
 clusters keep what they were | runtime/hierarchy/children_first.c | s/e = h->built; e-- > 0;/e = 0; e-- > 1;/ | runtime/check_measured_error runtime/check_transport
 halves are added | runtime/engine/face_error.c | s/x\[i + step\] = a - b/x[i + step] = a + b/ | runtime/check_measured_error
+power says nothing of faces | runtime/engine/face_error.c | s/f->l1.high = fmax(f->l1.high, sure)/(void)sure/ | runtime/check_mended_reach
 coarse links that know nothing | runtime/engine/api_choice.c | s/PARTICLE \* spared/0 * spared/ | solver/check_coarse_first
 sweeps for nothing | runtime/engine/api_choice.c | s/SWEPT = 0.2/SWEPT = 0/ | runtime/check_choice
 links at any price | runtime/engine/api_choice.c | s/may_be_none ? FEW : 0/0 * FEW/ | solver/check_coarse_first runtime/check_choice

@@ -318,6 +318,16 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     return 0;
 }
 
+void face_error_agree(struct face_error *f)
+{
+    const double sure = fmax(f->power.low, -f->power.high);
+    if (!(sure > 0) || !isfinite(sure))
+        return;
+    f->l1.low = fmax(f->l1.low, sure);
+    f->l1.value = fmax(f->l1.value, sure);
+    f->l1.high = fmax(f->l1.high, sure);
+}
+
 void face_error_close(struct face_error *f)
 {
     free(f->error);

@@ -179,6 +179,29 @@ START_TEST(test_power)
 }
 END_TEST
 
+/* What is surely missing of all light is missing of faces, whatever is told of these. */
+START_TEST(test_agree)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        struct face_error m = measured(1, 0, 0.0008, 0.0034);
+        m.power = (struct RadMeasure){sign * 0.0049, sign * 0.0049 - 0.001, sign * 0.0049 + 0.001};
+        face_error_agree(&m);
+        ck_assert_double_eq_tol(m.l1.low, 0.0039, 1e-12);
+        ck_assert_double_eq(m.l1.value, m.l1.low);
+        ck_assert_double_eq(m.l1.high, m.l1.low);
+        m = measured(1, 0, 0.0008, 0.0054);
+        m.power = (struct RadMeasure){sign * 0.0029, sign * 0.0029 - 0.001, sign * 0.0029 + 0.001};
+        face_error_agree(&m);
+        ck_assert_double_eq_tol(m.l1.low, 0.0019, 1e-12);
+        ck_assert_double_eq(m.l1.value, (0.0008 + 0.0054) / 2);
+        ck_assert_double_eq(m.l1.high, 0.0054);
+    }
+    struct face_error m = measured(1, 0.001, 0.0008, 0.0034);
+    face_error_agree(&m);
+    ck_assert_double_eq(m.l1.low, 0.0008);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("mended reach");
@@ -187,6 +210,7 @@ int main(void)
     tcase_add_test(tests, test_coverage);
     tcase_add_test(tests, test_faces);
     tcase_add_test(tests, test_power);
+    tcase_add_test(tests, test_agree);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
 }
