@@ -22,7 +22,7 @@
 #include "kernel/constants.h"
 #include "kernel/surface_point.h"
 #include "util/array.h"
-#include "util/thread_pool.h"
+#include "util/ranks_loop.h"
 
 enum { SIDE = 8, POINTS = SIDE * SIDE };
 
@@ -87,13 +87,16 @@ static void take_shares(const void *responding, size_t from, size_t to)
     }
 }
 
-/* r of the surfaces made since the last call; what they carry starts as their parents'. */
+/* r of the surfaces made since the last call, which several ranks share out; what they carry starts
+ * as their parents'. */
 static void respond(struct importance *y, const struct light_operator *op)
 {
     const struct element *elements = op->hierarchy->elements;
+    const struct solve_options *o = &op->problem->options;
     const struct responding r = {y, op};
     uint32_t count = op->hierarchy->count;
-    thread_pool_run(op->problem->options.threads, count - y->started, 64, take_shares, &r);
+    ranks_loop_run(o->ranks, RANKS_VALUES, o->threads, count - y->started, 64, take_shares, &r,
+                   y->response + y->started, sizeof *y->response);
     for (uint32_t i = y->started; i < count; i++) {
         y->source[i] = elements[i].reflectance * y->response[i];
         y->carried[i] = !elements[i].vertices   ? 0
@@ -143,7 +146,7 @@ static void mark_grown(const struct importance *y, struct hierarchy *h, struct o
 int importance_start(struct importance *y, const struct light_operator *op, struct hierarchy *h,
                      struct oracle_inputs *in)
 {
-    if (reserve_importance(y, h->count) < 0)
+    if (ranks_any(op->problem->options.ranks, reserve_importance(y, h->count) < 0))
         return -1;
     respond(y, op);
     average(y, op);
@@ -154,7 +157,7 @@ int importance_start(struct importance *y, const struct light_operator *op, stru
 int importance_open(struct importance *y, const struct light_operator *op,
                     struct transport *carried)
 {
-    if (reserve_importance(y, op->hierarchy->count) < 0)
+    if (ranks_any(op->problem->options.ranks, reserve_importance(y, op->hierarchy->count) < 0))
         return -1;
     respond(y, op);
     *carried = (struct transport){.bands = 1,

@@ -19,12 +19,12 @@ struct importance {
 };
 
 /* Before the first refinement: what the view sees of every face is all that counts, and every face
- * does where there is no view. Returns 0, or -1 when out of memory. */
+ * does where there is no view. Returns 0, or -1 on all ranks when any is out of memory. */
 int importance_start(struct importance *y, const struct light_operator *op, struct hierarchy *h,
                      struct oracle_inputs *in);
 
-/* Set *carried to importance's equation over the links as they are. Returns 0, or -1 when out of
- * memory. */
+/* Set *carried to importance's equation over the links as they are. Returns 0, or -1 on all
+ * ranks when any is out of memory. */
 int importance_open(struct importance *y, const struct light_operator *op,
                     struct transport *carried);
 

@@ -61,6 +61,7 @@ compare_ranks "$scenes/cornell.obj" 1 2 3 4
 compare_ranks "$scenes/room.obj" 2
 how="--scale none" compare_ranks "$scenes/room.obj" 3
 compare_ranks "$top/tests/runtime/sky_room.obj" 3 # by paths
+how="--no-correct --oracle importance --view .28,.27,-.5:.28,.27,.3" compare_ranks "$scenes/cornell.obj" 3
 # an empty room with a dark wall, in which elements are split for what all links bring together
 sed 's/^f 1 2 3 4$/usemtl dark\n&\nusemtl wall_1s/' "$scenes/furnace.obj" >dim.obj
 cp "$scenes/furnace.mtl" . && printf 'newmtl dark\nKd .5 .5 .5\n' >>furnace.mtl
