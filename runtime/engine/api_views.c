@@ -141,7 +141,9 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         report->leaves += !e->children;
         report->marked_elements[e->mark % RAD_LINK_MARKS]++;
     }
-    if (own)
+    if (own) { /* those of others, which bear no mark: oracles that mark have one rank */
         report->leaves = s->quarters.leaves;
+        report->marked_elements[0] += s->quarters.count - s->hierarchy.count;
+    }
     memcpy(report->decided, counts->decided, sizeof report->decided);
 }

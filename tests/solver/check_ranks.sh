@@ -49,6 +49,7 @@ compare_ranks() { # SCENE RANKS...: against one process
                 alike "$(value several.json $key)" "$(value one.json $key)"
         done
         check "$name on $n ranks: other decisions" diff <(sed -n '/"decisions"/,/}/p' one.json) <(sed -n '/"decisions"/,/}/p' several.json)
+        check "$name on $n ranks: other marks of elements" diff <(sed -n '/"element_marks"/,/]/p' one.json) <(sed -n '/"element_marks"/,/]/p' several.json)
         check "$name on $n ranks: other faces that are not known" diff <(grep _unsure one.json) <(grep _unsure several.json)
         check "$name on $n ranks: $(value several.json power_absorbed) W absorbed, alone $(value one.json power_absorbed)" \
             near "$(value several.json power_absorbed)" "$(value one.json power_absorbed)"
