@@ -122,6 +122,8 @@ int machines_end(int status)
     MPI_Bcast(&spoken, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (!spoken && status != 0 && rank > 0)
         fprintf(stderr, "%srank %d of %d could not go on\n", kept, rank, ranks);
+    /* what one wrote alone, too */
+    MPI_Allreduce(MPI_IN_PLACE, &left_open, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     if (left_open) {
         fflush(stderr);
         signal(SIGTERM, SIG_DFL); /* by which the others are ended, and have nothing to say */

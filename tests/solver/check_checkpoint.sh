@@ -171,6 +171,14 @@ for blocks in 100 800; do # of 1 KB: before the first pass is written, and behin
     same_on "behind a full disk" a.json 2
 done
 check "a full disk left the last good file" [ -e full.h5 ]
+# one of them writes this file alone, and the others end with it
+rm -f full.h5
+since=$SECONDS
+mpirun --oversubscribe -n 3 --mca btl tcp,self sh -c "ulimit -f 100; trap '' XFSZ; exec timeout 60 $radiosity solve $scene -q --threads 1 -o full.xdmf" >out 2>said
+status=$?
+ends "a full disk for a mesh"
+check "a full disk for a mesh: one message: $(grep error: said)" [ "$(grep -c "^full.h5: error: cannot write: " said)" = 1 ]
+check "a full disk for a mesh: nothing is left" [ -z "$(ls full.* 2>/dev/null)" ]
 
 near=rad$$n far=rad$$f
 if [ "$(id -u)" = 0 ] && ip netns add $near 2>/dev/null; then
