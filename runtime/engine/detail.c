@@ -147,8 +147,9 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
     double more = 0;
     if (!s->linear.gradient)
         return 0;
-    for (uint32_t i = 0; i < first && !own_quarters(s); i++)
-        more += quarters_of(parts_of(s, i, per_watt, per_m2));
+    for (uint32_t i = 0; i < first; i++) /* of several ranks each makes room for its own */
+        if (!own_quarters(s) || own_quarters_mine(s, i))
+            more += quarters_of(parts_of(s, i, per_watt, per_m2));
     int failed = more > UINT32_MAX || hierarchy_reserve(h, (uint32_t)more) < 0;
     for (uint32_t i = 0; i < first && !failed; i++)
         failed = split_leaf(s, i, parts_of(s, i, per_watt, per_m2)) < 0;
