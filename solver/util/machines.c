@@ -27,7 +27,7 @@ static int launched(void)
 
 enum { KEPT = 1 << 14, PATIENCE = 10 };
 
-static int begun, ranks = 1, rank, left_open;
+static int begun, ranks = 1, rank, left_open, told; /* told: of an error, or kept one */
 static char kept[KEPT];
 
 int machines_begin(int *count, char ***arguments)
@@ -79,9 +79,18 @@ void machines_place(uint64_t count, uint64_t *first, uint64_t *all)
     MPI_Allreduce(MPI_IN_PLACE, all, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
 }
 
-int machines_keep(const char *line)
+int machines_alike(uint64_t number)
+{
+    uint64_t most[2] = {number, ~number};
+    if (ranks > 1)
+        MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD);
+    return most[0] == ~most[1];
+}
+
+int machines_keep(const char *line, int error)
 {
     const size_t used = strlen(kept);
+    told |= error;
     if (rank > 0)
         snprintf(kept + used, KEPT - used, "%s", line);
     return rank > 0;
@@ -118,9 +127,12 @@ int machines_end(int status)
         fflush(stderr);
         MPI_Abort(MPI_COMM_WORLD, status);
     }
-    int spoken = rank == 0 && status != 0;
-    MPI_Bcast(&spoken, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    if (!spoken && status != 0 && rank > 0)
+    /* The first that can tell why is heard: others may have ended only because of it. Where rank 0
+     * ends without an error, as one that was stopped does, and nobody has any, all is said. */
+    const int knows = status != 0 && told, fails = status != 0;
+    int first[2] = {knows ? rank : ranks, fails ? rank : ranks};
+    MPI_Allreduce(MPI_IN_PLACE, first, 2, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    if (rank > 0 && rank == (first[0] < ranks ? first[0] : first[1]))
         fprintf(stderr, "%srank %d of %d could not go on\n", kept, rank, ranks);
     /* what one wrote alone, too */
     MPI_Allreduce(MPI_IN_PLACE, &left_open, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
@@ -175,9 +187,15 @@ void machines_place(uint64_t count, uint64_t *first, uint64_t *all)
     *all = count;
 }
 
-int machines_keep(const char *line)
+int machines_alike(uint64_t number)
 {
-    (void)line;
+    (void)number;
+    return 1;
+}
+
+int machines_keep(const char *line, int error)
+{
+    (void)line, (void)error;
     return 0;
 }
 

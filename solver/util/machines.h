@@ -27,8 +27,11 @@ int machines_agree(int status);
 /* Each rank has so many of something: where its own begin, and how many all have. Waits for all. */
 void machines_place(uint64_t count, uint64_t *first, uint64_t *all);
 
-/* Another rank's message: is it kept here, and not to be said? */
-int machines_keep(const char *line);
+/* Have all ranks the same number? Waits for all. */
+int machines_alike(uint64_t number);
+
+/* A message, of an error or not: is it another rank's, kept here and not to be said? */
+int machines_keep(const char *line, int error);
 
 /* Something is open that could not be written, and that a library would close when MPI ends, and
  * fail: then the run ends without that. */

@@ -4,6 +4,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "util/machines.h"
 #include "util/temporary.h"
@@ -23,7 +24,7 @@ static void report(const char *path, uint32_t line, const char *kind, const char
     if (line)
         snprintf(at, sizeof at, ":%u", (unsigned)line);
     snprintf(all, sizeof all, "%s%s: %s: %s\n", path, at, kind, text);
-    if (!machines_keep(all))
+    if (!machines_keep(all, strcmp(kind, "error") == 0))
         fputs(all, stderr);
 }
 

@@ -249,6 +249,25 @@ refused 1 "no_such.obj" solve no_such.obj
 refused 1 "cannot" solve "$cube" -o no/such/folder.ply
 check "something was written" [ -z "$(find . -name '*.ply*' -o -name 't.csv*')" ]
 
+# ---- one rank of three, on a machine of its own, finds no scene there, or another one: one message says so
+mkdir elsewhere
+cp "$scenes/cornell.obj" "$scenes/cornell.mtl" .
+apart() { # TEXT COMMAND...
+    several 3 sh -c '[ "$OMPI_COMM_WORLD_RANK" != 1 ] || cd elsewhere; exec "$@"' sh "$radiosity" "${@:2}" -q >said 2>&1
+    status=$?
+    check "ranks apart, ${*:2}: status $status: $(head -n 3 said)" [ $status = 1 -a "$(grep -c "$1" said)" = 1 -a "$(grep -c error: said)" = 1 ]
+    check "ranks apart, ${*:2}: something was written" [ -z "$(ls apart* elsewhere/apart* 2>/dev/null)" ]
+}
+apart "cornell.obj: error: cannot read" solve cornell.obj --faces apart.csv
+apart "cornell.obj: error: cannot read" viewfactors cornell.obj -o apart.csv
+sed '0,/^v 0.343/s/^v 0.343/v 0.353/' cornell.obj >elsewhere/cornell.obj
+cp cornell.mtl elsewhere
+apart "have read different scenes" viewfactors cornell.obj -o apart.csv # that ended well, with other factors
+cp cornell.obj elsewhere
+sed 's/^Ke [1-9].*/Ke 1 2 3/' cornell.mtl >elsewhere/cornell.mtl
+apart "have read different scenes" solve cornell.obj --faces apart.csv
+rm -rf elsewhere cornell.obj cornell.mtl
+
 # ---- a rank that waits for one that is held up sleeps. Not while MPI itself starts, or beside other work has not let it come to
 # where it waits: then the other one goes on for a while, and is held up later.
 used() { awk '{ sub(/.*[)] /, ""); print $12 + $13 }' "/proc/$1/stat"; } # PID: hundredths of a second, by user and system
