@@ -137,9 +137,17 @@ struct hdf5_file *hdf5_create(const char *path, int together)
         hdf5_discard(f);
         return NULL;
     }
-    const hid_t access = access_of(f);
-    f->id = H5Fcreate(f->temporary, H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    H5Pclose(access);
+    /* or else those that do not find it would be waited for */
+    if (agree(f, access(f->temporary, R_OK | W_OK) < 0)) {
+        report_error(path, 0,
+                     "cannot write: not all processes find it there; name a file in a folder that "
+                     "all machines share");
+        hdf5_discard(f);
+        return NULL;
+    }
+    const hid_t reached = access_of(f);
+    f->id = H5Fcreate(f->temporary, H5F_ACC_TRUNC, H5P_DEFAULT, reached);
+    H5Pclose(reached);
     if (all_did(f, f->id < 0, 0) < 0) {
         hdf5_discard(f);
         return NULL;

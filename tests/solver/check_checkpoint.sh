@@ -180,6 +180,15 @@ ends "a full disk for a mesh"
 check "a full disk for a mesh: one message: $(grep error: said)" [ "$(grep -c "^full.h5: error: cannot write: " said)" = 1 ]
 check "a full disk for a mesh: nothing is left" [ -z "$(ls full.* 2>/dev/null)" ]
 
+# a folder that one of three has for itself: the others would wait for it to find the file
+mkdir own
+since=$SECONDS
+mpirun --oversubscribe -n 3 sh -c '[ "$OMPI_COMM_WORLD_RANK" != 1 ] || cd own; exec timeout 60 "$@"' sh "$radiosity" solve "$scene" -q --threads 1 --checkpoint own.h5 --json own.json >out 2>said
+status=$?
+ends "no folder in common"
+check "no folder in common: one message: $(grep error: said)" [ "$(grep -c "^own.h5: error: cannot write: not all processes find it" said)" = 1 -a "$(grep -c error: said)" = 1 ]
+check "no folder in common: nothing is left" [ -z "$(ls own own.* 2>/dev/null)" ]
+
 near=rad$$n far=rad$$f
 if [ "$(id -u)" = 0 ] && ip netns add $near 2>/dev/null; then
     trap 'for n in $near $far; do ip netns del $n 2>/dev/null; done; rm -rf "$tmp"' EXIT
