@@ -18,6 +18,7 @@
 #include "engine/collocation.h"
 #include "engine/dense.h"
 #include "engine/solve.h"
+#include "engine/state_identity.h"
 #include "engine/trace.h"
 #include "engine/transport.h"
 #include "engine/variation.h"
@@ -111,6 +112,9 @@ static const char refining[] =
 int solve_begin(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     const struct problem *p = &s->problem;
+    if (!ranks_alike(p->options.ranks, RANKS_VALUES, state_identity_oracle(refiner)))
+        return fail(s, "the processes have different oracles; give all of them the same files",
+                    cause);
     double error = error_control_target(refiner, rays_host(p->rays));
     int impact = refiner_reads(refiner, FACT_RECEIVER_IMPACT),
         bracket =

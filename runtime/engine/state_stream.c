@@ -13,15 +13,7 @@ enum { GROW = 1 << 12 };
 
 uint64_t state_mix(uint64_t hash, const void *bytes, size_t size)
 {
-    const unsigned char *at = bytes;
-    for (; size >= 8; size -= 8, at += 8) {
-        uint64_t word;
-        memcpy(&word, at, 8);
-        hash = hash64(hash + HASH_STEP + word);
-    }
-    for (; size > 0; size--)
-        hash = hash64(hash + HASH_STEP + *at++);
-    return hash;
+    return hash_bytes(hash, bytes, size);
 }
 
 static void send(struct state_out *out)

@@ -61,6 +61,15 @@ static inline size_t ranks_least(struct ranks *r, enum ranks_kind kind, size_t c
     return (size_t)-least;
 }
 
+/* Is the number the same on all ranks? */
+static inline int ranks_alike(struct ranks *r, enum ranks_kind kind, uint64_t number)
+{
+    const double high = (double)(number >> 32), low = (double)(uint32_t)number;
+    double most[4] = {high, low, -high, -low};
+    ranks_most(r, kind, most, 4);
+    return most[0] <= -most[2] && most[1] <= -most[3];
+}
+
 /* Is it so (not 0) on any rank? */
 int ranks_any(struct ranks *r, int so);
 

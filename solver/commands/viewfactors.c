@@ -9,6 +9,7 @@
 #include "commands/product_columns.h"
 #include "commands/ranks_report.h"
 #include "commands/sensor_rows.h"
+#include "kernel/hash.h"
 #include "output/factor_file.h"
 #include "output/factor_names.h"
 #include "output/json_file.h"
@@ -18,6 +19,7 @@
 #include "util/device.h"
 #include "util/machines.h"
 #include "util/open_oracle.h"
+#include "util/read_alike.h"
 #include "util/report.h"
 
 /* Which faces are one row. NULL: each its own. Returns 0, or -1 after a message. */
@@ -203,7 +205,13 @@ int command_viewfactors(const struct options *o, const struct open_scene *scene)
     if (o->sensor)
         return sensor_rows(o, scene);
     int status = o->product && columns_read(&columns, o->product, scene->originals) < 0;
-    if (machines_agree(status) == 0)
+    status =
+        machines_agree(status)
+        || (o->product
+            && read_alike(o->product, hash_bytes(columns.count, columns.x,
+                                                 columns.rows * columns.count * sizeof *columns.x))
+                   < 0);
+    if (status == 0)
         status = compute(o, scene, &columns);
     columns_free(&columns);
     return status;

@@ -262,11 +262,19 @@ apart "cornell.obj: error: cannot read" solve cornell.obj --faces apart.csv
 apart "cornell.obj: error: cannot read" viewfactors cornell.obj -o apart.csv
 sed '0,/^v 0.343/s/^v 0.343/v 0.353/' cornell.obj >elsewhere/cornell.obj
 cp cornell.mtl elsewhere
-apart "have read different scenes" viewfactors cornell.obj -o apart.csv # that ended well, with other factors
+apart "have read different files" viewfactors cornell.obj -o apart.csv # that ended well, with other factors
 cp cornell.obj elsewhere
 sed 's/^Ke [1-9].*/Ke 1 2 3/' cornell.mtl >elsewhere/cornell.mtl
-apart "have read different scenes" solve cornell.obj --faces apart.csv
-rm -rf elsewhere cornell.obj cornell.mtl
+apart "have read different files" solve cornell.obj --faces apart.csv
+cp cornell.mtl elsewhere
+cp "$oracles/bf.dag" "$oracles/common.dag" .
+cp common.dag elsewhere && sed 's/relative  : ratio = 0.05/relative  : ratio = 0.3/' bf.dag >elsewhere/bf.dag
+apart "have different oracles" solve cornell.obj --oracle bf.dag --no-correct --faces apart.csv
+for i in $(seq 21); do echo "$i,1"; done >columns && sed 's/,1/,2/' columns >elsewhere/columns
+apart "columns: error: the processes have read different files" viewfactors cornell.obj --product columns -o apart.csv
+echo ".3 .3 .3 0 0 1" >points && echo ".4 .3 .3 0 0 1" >elsewhere/points
+apart "points: error: the processes have read different files" viewfactors cornell.obj --sensor points -o apart.csv
+rm -rf elsewhere cornell.obj cornell.mtl bf.dag common.dag columns points
 
 # ---- a rank that waits for one that is held up sleeps. Not while MPI itself starts, or beside other work has not let it come to
 # where it waits: then the other one goes on for a while, and is held up later.
