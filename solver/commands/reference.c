@@ -16,6 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "commands/commands.h"
+#include "kernel/hash.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "util/atomic_file.h"
@@ -24,6 +25,7 @@
 #include "util/device.h"
 #include "util/machines.h"
 #include "util/progress.h"
+#include "util/read_alike.h"
 #include "util/report.h"
 #include "util/saving.h"
 #include "util/stop_signal.h"
@@ -46,6 +48,7 @@ struct run {
     char *state;                   /* the state's file */
     double start, saved, save_for; /* s: of the clock; what the last save took */
     uint64_t loaded;               /* rays that were cast before this run */
+    uint64_t identity;             /* of the state that they came with; 0: of none */
     int told;
 };
 
@@ -94,6 +97,7 @@ static int load(struct run *r)
                             "cannot be read: %s; remove it to start anew, or give -o another name",
                             strerror(errno));
     int failed = radLoadReference(r->reference, bytes, size) < 0;
+    r->identity = hash_bytes(1, bytes, size);
     free(bytes);
     if (failed) {
         report_error(r->state, 0, "%s; remove it to start anew, or give -o another name",
@@ -389,7 +393,7 @@ static int finish(struct run *r)
 static int run(struct run *r)
 {
     char text[32];
-    if (machines_agree(load(r) < 0))
+    if (machines_agree(load(r) < 0) || read_alike(r->state, r->identity) < 0)
         return 1;
     r->start = r->saved = seconds();
     int status = trace_all(r);

@@ -274,7 +274,9 @@ for i in $(seq 21); do echo "$i,1"; done >columns && sed 's/,1/,2/' columns >els
 apart "columns: error: the processes have read different files" viewfactors cornell.obj --product columns -o apart.csv
 echo ".3 .3 .3 0 0 1" >points && echo ".4 .3 .3 0 0 1" >elsewhere/points
 apart "points: error: the processes have read different files" viewfactors cornell.obj --sensor points -o apart.csv
-rm -rf elsewhere cornell.obj cornell.mtl bf.dag common.dag columns points
+"$radiosity" reference cornell.obj -o kept.csv --accuracy 10% --keep -q
+apart "kept.csv.state: error: the processes have read different files" reference cornell.obj -o kept.csv --accuracy 5%
+rm -rf elsewhere cornell.obj cornell.mtl bf.dag common.dag columns points kept.csv*
 
 # ---- a rank that waits for one that is held up sleeps. Not while MPI itself starts, or beside other work has not let it come to
 # where it waits: then the other one goes on for a while, and is held up later.
