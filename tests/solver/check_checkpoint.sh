@@ -187,7 +187,7 @@ mpirun --oversubscribe -n 3 sh -c '[ "$OMPI_COMM_WORLD_RANK" != 1 ] || cd own; e
 status=$?
 ends "no folder in common"
 check "no folder in common: one message: $(grep error: said)" [ "$(grep -c "^own.h5: error: cannot write: not all processes find it" said)" = 1 -a "$(grep -c error: said)" = 1 ]
-check "no folder in common: nothing is left" [ -z "$(ls own own.* 2>/dev/null)" ]
+check "no folder in common: nothing is left" [ -z "$(ls own.* own/* 2>/dev/null)" ]
 
 near=rad$$n far=rad$$f
 if [ "$(id -u)" = 0 ] && ip netns add $near 2>/dev/null; then
