@@ -147,7 +147,7 @@ libraries: the first counts | solver/scene/name_slots.c | s/^    \*slot_of(s, na
 damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
 more behind a state | runtime/engine/exchange_state_read.c | s/judge(s, state_get_end(&s->in)) < 0/0/ | runtime/check_exchange_state
 a block of a state is left out | runtime/engine/exchange_fill.c | s/(i >= f->read/(i > f->read/ | runtime/check_exchange_state
-a state of other parameters | runtime/engine/state_identity.c | s/hash = state_mix(hash, &value, sizeof value);/(void)value;/ | runtime/check_exchange_state
+a state of other parameters | runtime/engine/state_identity.c | s/hash = hash_bytes(hash, &value, sizeof value);/(void)value;/ | runtime/check_exchange_state
 few sweeps, and links are blamed | solver/util/solved.c | s/ \&\& !(r->solved.bound > r->solved.tolerance)/ \&\& r->solved.bound >= 0/ | solver/check_summary
 screens of one side | solver/output/faces_table.c | s/t->area.t->count. .= sides;/t->area[t->count] *= 0 * sides + 1;/ | solver/check_error
 unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work

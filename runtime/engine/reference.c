@@ -27,6 +27,7 @@
 #include "engine/state_identity.h"
 #include "engine/state_stream.h"
 #include "kernel/constants.h"
+#include "kernel/hash.h"
 
 /* Random numbers that nothing else takes: a reference must not share its noise with what it
  * judges. Of paths each face has its own. */
@@ -395,7 +396,7 @@ size_t reference_state_size(const struct reference *r)
 static uint64_t check(const unsigned char *bytes, size_t size)
 {
     size_t from = offsetof(struct state_head, scene);
-    return state_mix(size, bytes + from, size - from);
+    return hash_bytes(size, bytes + from, size - from);
 }
 
 void reference_state(const struct reference *r, unsigned char *bytes)

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "engine/state_identity.h"
-#include "engine/state_stream.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
 
@@ -29,8 +28,8 @@ static uint64_t hash_options(const struct solve *s)
     const int words[] = {o->iterations,   (int)o->solver, (int)o->projection,
                          (int)o->closure, clusters,       o->linear,
                          o->unit,         o->no_links};
-    const uint64_t hash = state_mix(0, &o->tolerance, sizeof o->tolerance);
-    return state_mix(hash, words, sizeof words);
+    const uint64_t hash = hash_bytes(0, &o->tolerance, sizeof o->tolerance);
+    return hash_bytes(hash, words, sizeof words);
 }
 
 static void name_work(uint64_t *head, const struct solve *s, const struct refiner *refiner)
@@ -68,7 +67,7 @@ static uint64_t check_part(const struct RadStatePart *p)
 {
     if (p->type == RAD_STATE_OF_LINKS)
         return check_links(p->data, p->rows);
-    return state_mix(p->rows, p->data, p->rows * p->columns * size_of(p->type));
+    return hash_bytes(p->rows, p->data, p->rows * p->columns * size_of(p->type));
 }
 
 /* Of all words but its own. */
@@ -77,7 +76,7 @@ static uint64_t check_head(const uint64_t *head)
     uint64_t copy[STATE_WORDS];
     memcpy(copy, head, sizeof copy);
     copy[STATE_CHECKS] = 0;
-    return state_mix(STATE_WORDS, copy, sizeof copy);
+    return hash_bytes(STATE_WORDS, copy, sizeof copy);
 }
 
 /* The parts' forms; their data are still to be set. */

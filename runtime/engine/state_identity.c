@@ -4,22 +4,22 @@
 
 #include <string.h>
 
-#include "engine/state_stream.h"
+#include "kernel/hash.h"
 
 /* The hash of a text behind another hash; NULL: the hash as it is. */
 static uint64_t mix_text(uint64_t hash, const char *text)
 {
-    return text ? state_mix(hash + 1, text, strlen(text)) : hash;
+    return text ? hash_bytes(hash + 1, text, strlen(text)) : hash;
 }
 
 uint64_t state_identity_faces(const struct hierarchy *h)
 {
-    uint64_t hash = state_mix(h->face_count, &h->built, sizeof h->built);
+    uint64_t hash = hash_bytes(h->face_count, &h->built, sizeof h->built);
     for (uint32_t i = 0; i < h->face_count; i++) {
         const struct face *f = &h->faces[i];
         const uint32_t facts[4] = {f->vertices, f->input, f->back, f->black};
-        hash = state_mix(hash, facts, sizeof facts);
-        hash = state_mix(hash, f->vertex, f->vertices * sizeof *f->vertex);
+        hash = hash_bytes(hash, facts, sizeof facts);
+        hash = hash_bytes(hash, f->vertex, f->vertices * sizeof *f->vertex);
     }
     return hash;
 }
@@ -27,8 +27,8 @@ uint64_t state_identity_faces(const struct hierarchy *h)
 uint64_t state_identity_scene(const struct problem *p, const struct hierarchy *h)
 {
     const size_t values = (size_t)h->face_count * p->bands;
-    uint64_t hash = state_mix(state_identity_faces(h), p->exitance, values * sizeof *p->exitance);
-    return state_mix(hash, p->reflectance, values * sizeof *p->reflectance);
+    uint64_t hash = hash_bytes(state_identity_faces(h), p->exitance, values * sizeof *p->exitance);
+    return hash_bytes(hash, p->reflectance, values * sizeof *p->reflectance);
 }
 
 uint64_t state_identity_version(void)
@@ -43,7 +43,7 @@ uint64_t state_identity_oracle(const struct refiner *refiner)
     for (int i = 0; i < refiner->parameter_count; i++) {
         const double value = refiner_get(refiner, i);
         hash = mix_text(hash, refiner->parameters[i].name);
-        hash = state_mix(hash, &value, sizeof value);
+        hash = hash_bytes(hash, &value, sizeof value);
     }
     return hash;
 }

@@ -11,11 +11,6 @@
 /* Items that an array grows by at first; then it doubles. */
 enum { GROW = 1 << 12 };
 
-uint64_t state_mix(uint64_t hash, const void *bytes, size_t size)
-{
-    return hash_bytes(hash, bytes, size);
-}
-
 static void send(struct state_out *out)
 {
     if (!out->failed && out->used)
@@ -27,7 +22,7 @@ void state_put(struct state_out *out, const void *bytes, size_t size)
 {
     const unsigned char *from = bytes;
     if (size)
-        out->check = state_mix(out->check, bytes, size);
+        out->check = hash_bytes(out->check, bytes, size);
     while (size > 0 && !out->failed) {
         size_t room = sizeof out->buffer - out->used, part = size < room ? size : room;
         memcpy(out->buffer + out->used, from, part);
@@ -57,7 +52,7 @@ enum state_read state_get(struct state_in *in, void *bytes, size_t size)
         return STATE_READ;
     if (in->read(in->user, bytes, size) != size)
         return STATE_SHORT;
-    in->check = state_mix(in->check, bytes, size);
+    in->check = hash_bytes(in->check, bytes, size);
     return STATE_READ;
 }
 

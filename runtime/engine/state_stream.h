@@ -45,7 +45,4 @@ enum state_read state_get_end(struct state_in *in);
  * takes no more than twice what there is: *array, the caller's to free, also on failure. */
 enum state_read state_get_array(struct state_in *in, void *array, uint64_t count, size_t size);
 
-/* The hash of some bytes behind another hash. */
-uint64_t state_mix(uint64_t hash, const void *bytes, size_t size);
-
 #endif

@@ -41,7 +41,7 @@ static size_t read_run(void *user, void *bytes, size_t size)
     for (int i = 0; i < 3 && r->mend && count == sizeof r->hash; i++)
         if (r->at == r->check[i])
             memcpy(bytes, &r->hash, count);
-    r->hash = state_mix(r->hash, bytes, count);
+    r->hash = hash_bytes(r->hash, bytes, count);
     r->at += count;
     return count;
 }
