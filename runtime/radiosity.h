@@ -821,7 +821,7 @@ RAD_API const double *radGetElementErrorLimits(RadSolution solution);
 struct RadCorrectOptions {
     /* particles are traced until their noise in the L1 error of polygons is below this share of the
      * reflected light; 0: RAD_CORRECT_NOISE, or, with `rays` 0, from RAD_CORRECT_PLAIN rays on
-     * until what mending leaves of that error is thought to be below RAD_CORRECT_LEFT
+     * until what mending leaves of that error is below RAD_CORRECT_LEFT, by its upper end
      * (engine/mended_error.c) */
     double noise;
     /* or until about so many rays are cast. 0: as many as bring the error on places of 1e-4 of the
@@ -841,7 +841,7 @@ struct RadCorrectOptions {
     int look;
 };
 #define RAD_CORRECT_NOISE 0.0065
-#define RAD_CORRECT_LEFT 0.008
+#define RAD_CORRECT_LEFT 0.01
 #define RAD_CORRECT_POWER 0.0039
 #define RAD_CORRECT_PLAIN (1u << 20)
 #define RAD_CORRECT_PLACES 0.065

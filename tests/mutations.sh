@@ -177,8 +177,10 @@ noise of corners is shown | solver/output/smoothing.c | s/1 - SMOOTHING_THRESHOL
 edges are noise | solver/output/smoothing.c | s/share = fmax(0,/share = 0 * fmax(0,/ | solver/check_smoothing
 neighbours however far | solver/output/smoothing.c | s/\*of_a = far_b .*/*of_a = 0.5;/ | solver/check_smoothing
 counts that disagree are as sure | runtime/engine/mended_reach.c | s/apart \* apart \/ both)/0 * apart)/ | runtime/check_mended_reach
-mending is a third of what it is | runtime/engine/mended_reach.c | s/reach->l1 = left$/reach->l1 = 0.3 * left/ | runtime/check_mended_reach
-large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + (sums/0 * noise->large + (sums/ | runtime/check_mended_error
+mending is a third of what it is | runtime/engine/mended_reach.c | s/reach->l1 = left/reach->l1 = 0.3 * left/ | runtime/check_mended_reach
+large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + small->value/0 * &/ | runtime/check_mended_error
+believed as if for certain | runtime/engine/mend_risk.c | s/ += 4 \* h \* along/ += 0 * h * along/ | runtime/check_mended_error
+what is left is what is likely | runtime/engine/mend_risk.c | s/left + REPLICATES_T \* deviation/left/ | runtime/check_mended_error
 far sides the other way round | runtime/hierarchy/long_faces.c | s/back ? 3 - c : c/c/ | runtime/check_long_faces
 short sides are cut | runtime/hierarchy/long_faces.c | s/sides\[0\] >= sides\[1\] ? 0 : 1/sides[0] >= sides[1] ? 1 : 0/ | runtime/check_long_faces
 all long faces are cut | runtime/hierarchy/long_faces.c | s/LONG_AREA \* whole/0 * whole/ | runtime/check_long_faces

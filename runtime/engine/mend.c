@@ -355,7 +355,7 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
     struct mending m = {.irradiance = irradiance};
     int failed = open_levels(&m.levels, op) < 0
                  || mend_sums_open(&m.sums, op, tally, MEND_LEAVES, irradiance) < 0
-                 || mend_clusters(&m.sums, irradiance, NULL) < 0;
+                 || mend_clusters(&m.sums, irradiance, NULL, NULL) < 0;
     if (!failed) {
         m.kin = malloc(((size_t)m.sums.places.count + 1) * sizeof *m.kin);
         m.note = malloc(((size_t)widest(&m.levels) * m.sums.bands + 1) * sizeof *m.note);
@@ -374,6 +374,12 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
 int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
                struct mended_faces *faces)
 {
+    return mend_faces_judged(op, tally, light, faces, NULL);
+}
+
+int mend_faces_judged(const struct light_operator *op, const struct tally *tally,
+                      const double *light, struct mended_faces *faces, struct mended_risk *risk)
+{
     const size_t values = (size_t)op->hierarchy->built * tally->bands + 1;
     struct mend_sums sums;
     faces->irradiance = calloc(values, sizeof *faces->irradiance);
@@ -381,7 +387,7 @@ int mend_faces(const struct light_operator *op, const struct tally *tally, const
     if (ranks_any(op->shares.ranks, !faces->irradiance || !faces->doubt))
         return -1;
     const int failed = mend_sums_open(&sums, op, tally, MEND_FACES, light) < 0
-                       || mend_clusters(&sums, faces->irradiance, faces->doubt) < 0;
+                       || mend_clusters(&sums, faces->irradiance, faces->doubt, risk) < 0;
     mend_sums_close(&sums);
     return failed ? -1 : 0;
 }

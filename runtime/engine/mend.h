@@ -3,6 +3,7 @@
 #ifndef MEND_H
 #define MEND_H
 
+#include "engine/mend_risk.h"
 #include "engine/operator.h"
 #include "particles/particles.h"
 
@@ -22,6 +23,9 @@ struct mended_faces {
  * either way mended_faces_close. */
 int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
                struct mended_faces *faces);
+/* And how far off they are. */
+int mend_faces_judged(const struct light_operator *op, const struct tally *tally,
+                      const double *light, struct mended_faces *faces, struct mended_risk *risk);
 void mended_faces_close(struct mended_faces *faces);
 
 #endif

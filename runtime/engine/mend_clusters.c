@@ -189,6 +189,14 @@ static void choose_thresholds(struct clusters *x)
     }
 }
 
+/* What of m is not believed. */
+static double doubted(const struct clusters *x, const struct note *note)
+{
+    if (note->class == NOTHING || !(note->seen > 0))
+        return 1;
+    return fmin(1, x->best[note->class] * noise_in(x, note) / note->seen);
+}
+
 /* Share out what e receives, mended by now, among its children. */
 static void share_out(const struct clusters *x, uint32_t e, uint32_t k, const struct note *note,
                       double *irradiance, double *doubt)
@@ -197,10 +205,9 @@ static void share_out(const struct clusters *x, uint32_t e, uint32_t k, const st
     const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
     const double whole = irradiance[(size_t)e * m->bands + k] * at->area,
                  counted = m->received[mend_at(m, e, k)];
-    double given[MEND_CHILDREN], belief = 0;
+    const double belief = 1 - doubted(x, note);
+    double given[MEND_CHILDREN];
     mend_shares(m, e, k, given);
-    if (note->class != NOTHING && note->seen > 0)
-        belief = fmax(0, 1 - x->best[note->class] * noise_in(x, note) / note->seen);
     for (uint32_t c = 0; c < at->children; c++) {
         const uint32_t j = at->child + c;
         double share = given[c];
@@ -295,6 +302,24 @@ static void settle_sum(const struct mend_sums *m, double *irradiance)
         }
 }
 
+/* How far faces are off then. */
+static int find_risk(const struct clusters *x, const double *irradiance, struct mended_risk *risk)
+{
+    const struct mend_sums *m = x->sums;
+    const size_t notes = (size_t)x->count * m->bands;
+    double *h = malloc((notes + 1) * sizeof *h);
+    const struct mended_clusters clusters = {x->parent, x->count, h};
+    if (ranks_any(m->op->shares.ranks, !h)) {
+        free(h);
+        return -1;
+    }
+    for (size_t i = 0; i < notes; i++)
+        h[i] = x->note[i].class == NOTHING ? -1 : doubted(x, &x->note[i]);
+    const int failed = mend_risk_find(m, &clusters, irradiance, risk);
+    free(h);
+    return failed;
+}
+
 static int clusters_open(struct clusters *x)
 {
     const struct mend_sums *m = x->sums;
@@ -307,10 +332,11 @@ static int clusters_open(struct clusters *x)
     return ranks_any(m->op->shares.ranks, !x->parent || !x->note) ? -1 : 0;
 }
 
-int mend_clusters(const struct mend_sums *m, double *irradiance, double *doubt)
+int mend_clusters(const struct mend_sums *m, double *irradiance, double *doubt,
+                  struct mended_risk *risk)
 {
     struct clusters x = {.sums = m};
-    const int failed = clusters_open(&x) < 0;
+    int failed = clusters_open(&x) < 0;
     if (!failed) {
         thread_pool_run(m->op->problem->options.threads, x.count, RUN, note_some, &x);
         sum_noise(&x);
@@ -325,6 +351,7 @@ int mend_clusters(const struct mend_sums *m, double *irradiance, double *doubt)
     for (size_t i = 0; i < x.count && !failed; i++) /* they get light from those before them */
         for (uint32_t k = 0; k < m->bands; k++)
             share_out(&x, x.parent[i], k, &x.note[i * m->bands + k], irradiance, doubt);
+    failed = failed || (risk && find_risk(&x, irradiance, risk) < 0);
     if (!failed)
         settle_sum(m, irradiance);
     free(x.parent);

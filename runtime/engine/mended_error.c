@@ -2,12 +2,15 @@
  *
  * Where light is smooth links know how it is shared among neighbours, and a few particles how much
  * there is: polygons are right long before each has been met often. So what counts is not the noise
- * of what is counted on them, but what mending makes of it, and mending says how much that is
- * (mend_clusters.c), as a variance for each face. The mean |e| of faces alike is at most its root,
- * times that of a normal number; where few of them have most of the error it is less by a quarter
- * or a third. Never is it thought to be more than the noise of the particles without any link. Of
- * large polygons, which somebody looks at for themselves, it is that: how far these are off is not
- * made up for by many small ones.
+ * of what is counted on them, but what mending makes of it, and mending says how much that is, and
+ * how sure (mend_risk.c). Never is it thought to be more than the noise of the particles without
+ * any link. Of large polygons, which somebody looks at for themselves, it is that: how far these
+ * are off is not made up for by many small ones.
+ *
+ * What is asked for is that the upper end is small enough: of what is known well, as noise where
+ * links say nothing, it is a few hundredths above what is likely, of what is known badly far above.
+ * Noise of large polygons is known to the replicates' 15 degrees of freedom, of which all may share
+ * the same; sums of moduli are off by chance, too, and so is all light, which they are shares of.
  *
  * As for places (ray_split.c), links of an error l and particles of a noise n together have
  * 1 / e^2 = 1 / l^2 + 1 / n^2; r times the particles have 1 / l^2 + r / n^2.
@@ -22,46 +25,48 @@
 #include "engine/mended_error.h"
 #include "engine/polygon_rows.h"
 #include "engine/reflected_light.h"
-#include "kernel/lambert.h"
 
-/* Over this rank's faces, or all where it has the counts of all: what they reflect, and of small
- * polygons the mean |e| (W). */
-static void sum_errors(const struct solve *s, const struct tally *tally, const double *area,
-                       const struct mended_faces *faces, double sums[2])
+/* Faces of large polygons: [face]; NULL when out of memory. */
+static unsigned char *find_large(const struct solve *s)
 {
     const struct hierarchy *h = &s->hierarchy;
-    const uint32_t bands = s->problem.bands;
     const double least = large_area(&s->problem, h);
-    for (uint32_t f = 0; f < h->face_count; f++) {
-        const uint32_t e = h->face_element[f];
-        const int large = area[h->faces[f].input] > least;
-        for (uint32_t k = 0; k < bands && tally_holds(tally, f); k++) {
-            const double reflected = s->problem.reflectance[(size_t)f * bands + k]
-                                     * h->elements[e].area
-                                     * faces->irradiance[(size_t)e * bands + k];
-            sums[0] += reflected;
-            sums[1] +=
-                large ? 0 : reflected * sqrt(2 / LAMBERT_PI * faces->doubt[(size_t)e * bands + k]);
-        }
-    }
+    double *area = polygon_areas(&s->problem, h);
+    unsigned char *large = area ? malloc((size_t)h->face_count + 1) : NULL;
+    for (uint32_t f = 0; large && f < h->face_count; f++)
+        large[f] = area[h->faces[f].input] > least;
+    free(area);
+    return large;
+}
+
+static struct mended_error add_large(const struct solve *s, const struct tally *tally,
+                                     const struct face_noise *noise,
+                                     const struct mended_risk *small)
+{
+    double variance;
+    const double light = reflected_light(&s->problem, tally, &variance),
+                 more = small->most - small->value,
+                 value = fmin(noise->all, noise->large + small->value),
+                 square = noise->large * noise->large / (2 * (REPLICATES - 1))
+                          + noise->spread * noise->spread
+                          + (light > 0 ? variance / (light * light) : 0);
+    return (struct mended_error){value,
+                                 value + sqrt(more * more + REPLICATES_T * REPLICATES_T * square)};
 }
 
 int mended_error_find(const struct solve *s, const struct tally *tally,
-                      const struct face_noise *noise, double *error)
+                      const struct face_noise *noise, struct mended_error *error)
 {
-    struct ranks *ranks = s->problem.options.ranks;
     struct mended_faces faces = {NULL, NULL};
-    double *area = polygon_areas(&s->problem, &s->hierarchy), sums[2] = {0, 0};
+    unsigned char *large = find_large(s);
+    struct mended_risk small = {.apart = large};
     const int failed =
-        ranks_any(ranks, !area) || mend_faces(&s->operator, tally, s->state.irradiance, &faces) < 0;
-    if (!failed) {
-        sum_errors(s, tally, area, &faces, sums);
-        if (tally->quarters)
-            ranks_add(ranks, RANKS_PARTICLES, sums, 2);
-        *error = fmin(noise->all, noise->large + (sums[0] > 0 ? sums[1] / sums[0] : 0));
-    }
+        ranks_any(s->problem.options.ranks, !large)
+        || mend_faces_judged(&s->operator, tally, s->state.irradiance, &faces, &small) < 0;
+    if (!failed)
+        *error = add_large(s, tally, noise, &small);
     mended_faces_close(&faces);
-    free(area);
+    free(large);
     return failed ? -1 : 0;
 }
 
@@ -89,14 +94,14 @@ int mended_error_times(const struct solve *s, const struct tally *tally,
 {
     const double for_power = power_times(s, tally, goal);
     struct face_noise noise;
-    double left;
+    struct mended_error left;
     if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0)
         return -1;
     *times = *alone = noise.all * noise.all / (goal->noise * goal->noise);
     if (*times > 1 && goal->left > 0 && tally->rays >= goal->plain) {
         if (mended_error_find(s, tally, &noise, &left) < 0)
             return -1;
-        *times = fmin(*times, mended_error_wanted(left, noise.all, goal->left));
+        *times = fmin(*times, mended_error_wanted(left.most, noise.all, goal->left));
     }
     *times = fmax(*times, for_power);
     *alone = fmax(*alone, for_power);

@@ -7,11 +7,15 @@
 #include "engine/mending_goal.h"
 #include "engine/solve.h"
 
-/* The L1 error of polygons, as a share of the reflected light, once the particles of the tally mend
- * the links; noise: what particles alone would leave. The solution stays as it is. Returns 0, or -1
- * on all ranks when any is out of memory. */
+/* The L1 error of polygons, as a share of the reflected light, and its upper end (97.5 %). */
+struct mended_error {
+    double value, most;
+};
+
+/* Once the particles of the tally mend the links; noise: what particles alone would leave. The
+ * solution stays as it is. Returns 0, or -1 on all ranks when any is out of memory. */
 int mended_error_find(const struct solve *s, const struct tally *tally,
-                      const struct face_noise *noise, double *error);
+                      const struct face_noise *noise, struct mended_error *error);
 
 /* How many times the particles bring that error to the goal. */
 double mended_error_wanted(double error, double noise, double goal);

@@ -9,11 +9,9 @@
  * be seen by few: then the variance of the mean is larger by the square of how much.
  * [Birge 1932]
  *
- * L1. What mending leaves is an unbiased estimate of risk (mend_clusters.c), of large polygons the
- * whole noise of the particles (mended_error.c). The sum of moduli is off from that by chance: as
- * sums of normal numbers are, by the light that all have in common, and because noise is known to
- * the replicates' 15 degrees of freedom, of which a class of polygons may share all. Nothing of the
- * sum is believed beyond its upper end, and not that where those that measure are sure of more.
+ * L1. What mending leaves is an unbiased estimate of risk (mend_risk.c), of large polygons the
+ * whole noise of the particles, and the upper end of both is known (mended_error.c). Nothing is
+ * believed beyond that, and not that where those that measure are sure of more.
  *
  * [derived here; coverage: tests/runtime/check_measured_error.c]
  * SPDX-License-Identifier: MIT */
@@ -26,19 +24,16 @@
 int mended_reach_find(const struct solve *s, const struct tally *tally, struct mended_reach *reach)
 {
     struct face_noise noise;
-    double left;
+    struct mended_error left;
     *reach = (struct mended_reach){0, 0, 0, 0};
     if (face_noise_find(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0
         || mended_error_find(s, tally, &noise, &left) < 0)
         return -1;
     reach->light = reflected_light(&s->problem, tally, &reach->variance);
-    if (!(reach->light > 0 && left > 0))
+    if (!(reach->light > 0 && left.most > 0))
         return 0;
-    reach->left = left;
-    reach->l1 = left
-                + REPLICATES_T
-                      * sqrt(left * left / (2 * (REPLICATES - 1)) + noise.spread * noise.spread
-                             + reach->variance / (reach->light * reach->light));
+    reach->left = left.value;
+    reach->l1 = left.most;
     return 0;
 }
 

@@ -7,7 +7,7 @@
 
 struct mending_goal {
     double noise;    /* theirs in the L1 error of polygons, a share of the reflected light */
-    double left;     /* or what mending leaves of that error, the same; 0: not looked at */
+    double left;     /* or what mending leaves of it at the most, the same; 0: not looked at */
     double power;    /* and the standard error of all reflected light, the same; 0: any */
     uint64_t plain;  /* rays, about, before that is looked at */
     uint64_t most;   /* rays, about: no more, whatever they have reached */
