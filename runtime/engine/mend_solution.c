@@ -25,8 +25,6 @@
 #include "util/thread_pool.h"
 /* rays of a look by particles where the goal says nothing of it */
 enum { LOOK = 1 << 15 };
-/* so many times the rays before what is left is looked at again; chosen */
-static const double CLOSER = 1.25;
 
 /* Slopes of linear elements go with what is reflected, so that none is below 0 at a corner. */
 static void mend_gradients(const void *solve, size_t from, size_t to)
@@ -186,12 +184,10 @@ static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally
     if (tally->particles > 0 && times > 0 && times_wanted(s, tally, goal, &times, &alone) < 0)
         return -1;
     while (times > 1 && tally->rays < goal->most) {
-        /* they double at the most before that is asked again, which takes as long as some of them:
-         * where what is left is looked at it may be enough long before what is foretold */
-        const double all = (double)tally->rays * times,
-                     growth = goal->left > 0 && tally->rays >= goal->plain ? CLOSER : 2,
-                     next =
-                         fmin(fmin(1.02 * all, growth * (double)tally->rays), (double)goal->most);
+        /* they double at the most before that is asked again */
+        const double now = (double)tally->rays, all = now * times,
+                     growth = mended_error_growth(goal, now, 2),
+                     next = fmin(fmin(1.02 * all, growth * now), (double)goal->most);
         uint64_t before = tally->rays;
         if (trace_rays(s, t, tally, next > 1 ? (uint64_t)next : 1, fmin(all, (double)goal->most))
                 < 0

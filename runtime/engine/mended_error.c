@@ -77,6 +77,15 @@ double mended_error_wanted(double error, double noise, double goal)
     return noise * noise / (goal * goal) - noise * noise / (error * error) + 1;
 }
 
+/* What is left may be small enough long before what was foretold of it: then as soon as that is
+ * looked at, and each time a quarter more are cast, as asking takes as long as some of them; chosen
+ */
+double mended_error_growth(const struct mending_goal *goal, double rays, double most)
+{
+    static const double CLOSER = 1.25;
+    return goal->left > 0 ? fmin(most, fmax(CLOSER, 1.02 * (double)goal->plain / rays)) : most;
+}
+
 /* How many times the tally tells all reflected light as surely as is wanted. Of light that nobody
  * has seen next to nothing is known. */
 static double power_times(const struct solve *s, const struct tally *tally,

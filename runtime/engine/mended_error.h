@@ -26,4 +26,7 @@ double mended_error_wanted(double error, double noise, double goal);
 int mended_error_times(const struct solve *s, const struct tally *tally,
                        const struct mending_goal *goal, double *times, double *alone);
 
+/* By how many times the rays may grow before that is asked again, by `most` at the most. */
+double mended_error_growth(const struct mending_goal *goal, double rays, double most);
+
 #endif

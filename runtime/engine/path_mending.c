@@ -94,8 +94,9 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
         if (!(times > 1) || rays >= 0.99 * most || y->tally.rays == before)
             return 1;
         /* each face has a block more where there is room for that: less may be none */
+        const double growth = chosen ? mended_error_growth(goal, rays, GROWTH) : GROWTH;
         const double traced = (double)y->tally.particles * REPLICATES;
         paths =
-            fmin(fmax(traced * fmin(1.02 * times, GROWTH), traced + look), traced * most / rays);
+            fmin(fmax(traced * fmin(1.02 * times, growth), traced + look), traced * most / rays);
     }
 }
