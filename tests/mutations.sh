@@ -180,7 +180,8 @@ counts that disagree are as sure | runtime/engine/mended_reach.c | s/apart \* ap
 mending is a third of what it is | runtime/engine/mended_reach.c | s/reach->l1 = left/reach->l1 = 0.3 * left/ | runtime/check_mended_reach
 large faces are as good as links | runtime/engine/mended_error.c | s/noise->large + small->value/0 * &/ | runtime/check_mended_error
 believed as if for certain | runtime/engine/mend_risk.c | s/ += 4 \* h \* along/ += 0 * h * along/ | runtime/check_mended_error
-what is left is what is likely | runtime/engine/mend_risk.c | s/left + REPLICATES_T \* deviation/left/ | runtime/check_mended_error
+what is left is what is likely | runtime/engine/mend_risk.c | s/deviation = sqrt(/deviation = 0 * sqrt(/ | runtime/check_mended_error
+noise is none where it is believed | runtime/engine/mend_risk.c | s/u \* (2 \* h - 1) \* noise/u * noise/ | runtime/check_mended_error
 far sides the other way round | runtime/hierarchy/long_faces.c | s/back ? 3 - c : c/c/ | runtime/check_long_faces
 short sides are cut | runtime/hierarchy/long_faces.c | s/sides\[0\] >= sides\[1\] ? 0 : 1/sides[0] >= sides[1] ? 1 : 0/ | runtime/check_long_faces
 all long faces are cut | runtime/hierarchy/long_faces.c | s/LONG_AREA \* whole/0 * whole/ | runtime/check_long_faces
