@@ -841,7 +841,7 @@ struct RadCorrectOptions {
     int look;
 };
 #define RAD_CORRECT_NOISE 0.0065
-#define RAD_CORRECT_LEFT 0.009
+#define RAD_CORRECT_LEFT 0.0085
 #define RAD_CORRECT_POWER 0.0039
 #define RAD_CORRECT_PLAIN (1u << 20)
 #define RAD_CORRECT_PLACES 0.065

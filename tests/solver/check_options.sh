@@ -358,7 +358,7 @@ told RAD_CORRECT_PLACES 0.065 $api "6.5 %, root mean square" $error $page
 told RAD_CORRECT_PLACES 0.065 $api "6.5 % on places of 1e-4" README.md
 told RAD_CORRECT_NOISE 0.0065 $api ".65 % of the light per face" $error
 told RAD_CORRECT_NOISE 0.0065 $api ".65 % of noise per face" README.md
-told RAD_CORRECT_LEFT 0.009 $api "is at most .9 %" $error
+told RAD_CORRECT_LEFT 0.0085 $api "is at most .85 %" $error
 told RAD_CORRECT_POWER 0.0039 $api "at most .39 %" $error
 told RAD_CORRECT_LEAST "(1u << 17)" $api "131,072" $error
 told RAD_CORRECT_OF_ONE 6400u $api "6,400 for each face" $error README.md
