@@ -191,6 +191,7 @@ weak paths tell, too | runtime/engine/reference.c | s/w < REFERENCE_LEAST/w < 0 
 paths go on to their noise | runtime/engine/mended_error.c | s/goal->left > 0 \&\& tally/goal->left > 0 \&\& !tally->by_paths \&\& tally/ | runtime/check_path_mending
 no link spares a ray | runtime/engine/mended_error.c | s/\*times = fmin(\*times, mended_error_wanted/(void)(mended_error_wanted/ | runtime/check_mended_error
 small shades are missed | runtime/engine/sight_cubature.c | s/node->error += missed(l, at);/(void)missed;/ | runtime/check_entries
+small shades of solids are missed | runtime/engine/sight_missed.c | s/e->normal) < 0;/e->normal) < INFINITY;/ | runtime/check_entries
 parts of polygons count | runtime/engine/exchange_areas.c | s/how->tolerance, scene->input_count,/how->tolerance, tree->h.face_count,/ | runtime/check_entries
 faint pairs see all of each other | runtime/engine/sight_rays.c | s/return clear \* share;/return clear;/ | runtime/check_entries
 faint pairs see nothing | runtime/engine/sight_rays.c | s/return clear \* share;/return 0 * share;/ | runtime/check_entries

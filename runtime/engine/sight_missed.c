@@ -4,7 +4,9 @@
  * points agree, and so do those of the quarters, by chance: nothing tells that a shade was missed.
  * But what passes through a face is no more than what the piece and the face exchange with nothing
  * between, nor than what the face and the polygon do; and both are known exactly. A face that
- * throws a shade on some point is not asked: the rule's own error speaks of that. [derived here]
+ * throws a shade on some point is not asked: the rule's own error speaks of that. What passes
+ * through a solid passes through two of its faces, and is counted at the one by which it comes in.
+ * [derived here]
  * SPDX-License-Identifier: MIT */
 #include "engine/sight_missed.h"
 #include "kernel/element_distance.h"
@@ -111,6 +113,16 @@ static int is_beyond(const struct element *face, const struct side_planes *plane
     return 0;
 }
 
+/* Do rays from the piece leave a solid by the face? They have met one by which they come in. */
+static int is_way_out(const struct exchange_tree *t, uint32_t face, const struct element *piece)
+{
+    const struct element *e = &t->h.elements[face];
+    int behind = t->bodies.of[face] != 0;
+    for (int c = 0; c < piece->vertices && behind; c++)
+        behind = height3(piece->vertex[c], e->vertex[0], e->normal) < 0;
+    return behind;
+}
+
 double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
                     const struct element *to, const struct exchange_tree *tree,
                     const uint32_t *faces, int count, struct sight_known *known, double most)
@@ -124,8 +136,8 @@ double sight_missed(const struct sight_eyes *eyes, const struct element *piece,
     planes_between(&of_piece, to, piece, tree->h.flat);
     for (int i = 0; i < count && sum < most; i++) {
         const struct element *face = &tree->h.elements[faces[i]];
-        if (is_beyond(face, &of_to) || is_beyond(face, &of_piece)
-            || is_seen(eyes, face, piece->radius)
+        if (is_way_out(tree, faces[i], piece) || is_beyond(face, &of_to)
+            || is_beyond(face, &of_piece) || is_seen(eyes, face, piece->radius)
             || !candidates_meets(&tree->h, &shaft, tree->host.ray_offset, faces[i]))
             continue;
         sum += fmin(fmin(sight_exchange_through(tree, faces[i], piece, known),

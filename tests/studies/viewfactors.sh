@@ -6,8 +6,8 @@
 # VIEW3D, VIEW_FACTORS_GEN: those programs, by default as PATH finds them; what is not there is passed over and said so. Each
 # program writes its own format, in binary where it has one, and runs with its own tolerances, on one thread. Without them being
 # asked to, none scales rows to 1. How long one takes from start to end on all threads is measured besides. "as View3D" is
-# `radiosity` with the largest tolerance of EXCHANGE_TOLERANCE times a power of two at which its mean error is no larger than
-# View3D's: of entries, or where nobody knows these, of rows. LIMIT: seconds of the processor for one run (120); what takes longer is not tried larger.
+# `radiosity` with the largest tolerance of EXCHANGE_TOLERANCE times a power of the root of two at which its mean error is no larger
+# than View3D's: of entries, or where nobody knows these, of rows. LIMIT: seconds of the processor for one run (120); what takes longer is not tried larger.
 # LARGEST: faces (13000). ENTRIES: faces up to which each entry is held against a finer matrix (400); against closed forms it is up
 # to four times as many. PROGRAMS: of radiosity, View3D, as_View3D and OpenFOAM those that run now; all rows that are there are told of.
 # SPDX-License-Identifier: MIT
@@ -95,7 +95,7 @@ error_of() { # NAME VALUE lines: the mean error of entries, else of rows
 run_as_view3d() { # with what run() knows of View3D's row
     local aim times
     aim=$(for name in entry_mean row_mean; do echo "$name $(value_of "$view3d_key" $name)"; done | error_of)
-    for times in 16 8 4 2 1 .5 .25 .125; do
+    for times in 16 11.3 8 5.66 4 2.83 2 1.41 1 .707 .5 .354 .25 .177 .125; do
         run_radiosity "$(awk -v t="$times" -v default="$default_tolerance" 'BEGIN { printf "%g", t * default }')" >"$tmp/as_view3d" || return
         ! awk -v e="$(error_of <"$tmp/as_view3d")" -v aim="$aim" 'BEGIN { exit !(e <= aim) }' || break
     done
@@ -202,7 +202,7 @@ others=$({ [ -z "$view3d" ] || checksum "$view3d"; [ -z "$foam" ] || checksum "$
 \`viewFactorsGen\`, each with its own tolerances and on one thread; none scales its rows to 1. Seconds are of the processor, from the
 start of the program to its end, reading and writing included: \`radiosity\` writes \`.npz\`, View3D binary floats, OpenFOAM text.
 *elapsed*: from start to end, \`radiosity\` on all threads; the others have one. *as View3D*: \`radiosity\` with the largest tolerance
-of $default_tolerance times a power of two at which its mean error is no larger than View3D's."
+of $default_tolerance times a power of the root of two at which its mean error is no larger than View3D's."
     printf '![Seconds, memory and mean row defect over faces, of four scenes](viewfactors.svg)\n\n'
     echo "All scenes are closed, so rows sum to 1. \`cube_quads\` and \`cube_triangles\` are a bare cube (\`tests/studies/walls.awk\`), whose entries have closed"
     echo "forms; \`sphere_in_box\` is a sphere of triangles in it, \`room_of_boxes\` half of its faces in walls, half in boxes. There entries are"
