@@ -275,6 +275,16 @@ static void show_nothing(struct face_error *f, double unseen)
     }
 }
 
+void face_error_agree(struct face_error *f)
+{
+    const double sure = fmax(f->power.low, -f->power.high);
+    if (!(sure > 0) || !isfinite(sure))
+        return;
+    f->l1.low = fmax(f->l1.low, sure);
+    f->l1.value = fmax(f->l1.value, sure);
+    f->l1.high = fmax(f->l1.high, sure);
+}
+
 static int open_lists(struct face_error *f)
 {
     size_t n = (size_t)f->polygons * f->bands + 1;
@@ -309,6 +319,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         f->noise = polygon_counts_noise(c);
         f->power = measure_power(&j, (double)tally->particles * REPLICATES);
         f->l1 = measure_l1(&j);
+        face_error_agree(f);
     }
     show_polygons(f, c, areas, large_area(p, h));
     show_bands(f, c);
@@ -316,16 +327,6 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     free(areas);
     free(j.weight);
     return 0;
-}
-
-void face_error_agree(struct face_error *f)
-{
-    const double sure = fmax(f->power.low, -f->power.high);
-    if (!(sure > 0) || !isfinite(sure))
-        return;
-    f->l1.low = fmax(f->l1.low, sure);
-    f->l1.value = fmax(f->l1.value, sure);
-    f->l1.high = fmax(f->l1.high, sure);
 }
 
 void face_error_close(struct face_error *f)

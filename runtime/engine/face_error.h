@@ -35,7 +35,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
 void face_error_close(struct face_error *f);
 
 /* Faces together are off by no less than all their light is, which other counts may tell better:
- * raise l1 to what of power is sure. */
+ * raise l1 to what of power is sure. face_error_open does; again once power is known better. */
 void face_error_agree(struct face_error *f);
 
 #endif

@@ -63,4 +63,5 @@ void mended_reach_narrow(const struct mended_reach *reach, struct face_error *f)
             f->l1.value = fmin(fmax(reach->left, f->l1.low), f->l1.high);
     }
     f->power = narrow_power(reach, f);
+    face_error_agree(f);
 }
