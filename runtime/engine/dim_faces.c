@@ -144,7 +144,7 @@ static int count_unasked(const struct dim_faces *d, const struct tally *tally,
     struct mended_faces faces = {NULL, NULL};
     if (d->count == 0)
         return 0;
-    const int failed = mend_faces(&s->operator, tally, s->state.irradiance, &faces) < 0;
+    const int failed = mend_faces(&s->operator, tally, s->state.irradiance, &faces, NULL) < 0;
     if (!failed)
         tell_doubt(&s->operator, s->problem.bands, faces.doubt);
     for (uint32_t j = 0; j < d->count && !failed; j++) {

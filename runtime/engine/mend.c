@@ -372,13 +372,7 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
 }
 
 int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
-               struct mended_faces *faces)
-{
-    return mend_faces_judged(op, tally, light, faces, NULL);
-}
-
-int mend_faces_judged(const struct light_operator *op, const struct tally *tally,
-                      const double *light, struct mended_faces *faces, struct mended_risk *risk)
+               struct mended_faces *faces, struct mended_risk *risk)
 {
     const size_t values = (size_t)op->hierarchy->built * tally->bands + 1;
     struct mend_sums sums;

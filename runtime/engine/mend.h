@@ -19,13 +19,10 @@ struct mended_faces {
     double *irradiance, *doubt;
 };
 
-/* By the light of links, which stays. Returns 0, or -1 on all ranks when any is out of memory;
- * either way mended_faces_close. */
+/* By the light of links, which stays. risk: NULL, or how far off they are. Returns 0, or -1 on all
+ * ranks when any is out of memory; either way mended_faces_close. */
 int mend_faces(const struct light_operator *op, const struct tally *tally, const double *light,
-               struct mended_faces *faces);
-/* And how far off they are. */
-int mend_faces_judged(const struct light_operator *op, const struct tally *tally,
-                      const double *light, struct mended_faces *faces, struct mended_risk *risk);
+               struct mended_faces *faces, struct mended_risk *risk);
 void mended_faces_close(struct mended_faces *faces);
 
 #endif

@@ -32,8 +32,9 @@
 
 enum { PAIRS = REPLICATES * (REPLICATES - 1) / 2 };
 
-/* The variance of a mean of replicates is the sum of squares over that. */
-static const double TO_MEAN = REPLICATES * (REPLICATES - 1.0);
+/* The variance of a mean of replicates is the sum of squares over that; the mean over replicates of
+ * such squares, over OTHERS. */
+static const double TO_MEAN = REPLICATES * (REPLICATES - 1.0), OTHERS = REPLICATES - 1.0;
 /* products of what two replicates differ from the mean by have that of the variance of those of
  * what they differ from the truth by */
 static const double OF_PRODUCTS =
@@ -227,27 +228,24 @@ static void add_clusters(const struct judging *x, struct risk_sums *sums)
     mend_add_up(m, sums, 1 + REPLICATES + PAIRS);
 }
 
-/* Sum of squares off the mean. */
-static double spread(const double *value, int count)
+/* The variance of products of two replicates. */
+static double products_variance(const double pair[PAIRS])
 {
     double mean = 0, square = 0;
-    for (int i = 0; i < count; i++)
-        mean += value[i] / count;
-    for (int i = 0; i < count; i++)
-        square += (value[i] - mean) * (value[i] - mean);
-    return square;
+    for (int i = 0; i < PAIRS; i++)
+        mean += pair[i] / PAIRS;
+    for (int i = 0; i < PAIRS; i++)
+        square += (pair[i] - mean) * (pair[i] - mean);
+    return square / (PAIRS * OF_PRODUCTS);
 }
 
 static void conclude(const struct light_sums *light, const struct risk_sums *sums,
                      struct mended_risk *risk)
 {
-    double left = sums->seen;
-    for (int r = 0; r < REPLICATES; r++)
-        left += sums->within[r] / TO_MEAN;
-    const double products = spread(sums->pair, PAIRS) / (PAIRS * OF_PRODUCTS)
-                            / (REPLICATES * (double)REPLICATES),
-                 squares = spread(sums->within, REPLICATES) * REPLICATES / (REPLICATES - 1.0)
-                           / (TO_MEAN * TO_MEAN),
+    double variance;
+    const double within = replicates_mean(sums->within, &variance),
+                 left = sums->seen + within / OTHERS, squares = variance / (OTHERS * OTHERS),
+                 products = products_variance(sums->pair) / (REPLICATES * (double)REPLICATES),
                  deviation = sqrt(2 * products * (1 + 2 * fmax(0, left / light->weight)) + squares),
                  normal = 2 / LAMBERT_PI * light->weight;
     risk->value = sqrt(normal * fmax(0, left + deviation)) / light->reflected;

@@ -60,9 +60,8 @@ int mended_error_find(const struct solve *s, const struct tally *tally,
     struct mended_faces faces = {NULL, NULL};
     unsigned char *large = find_large(s);
     struct mended_risk small = {.apart = large};
-    const int failed =
-        ranks_any(s->problem.options.ranks, !large)
-        || mend_faces_judged(&s->operator, tally, s->state.irradiance, &faces, &small) < 0;
+    const int failed = ranks_any(s->problem.options.ranks, !large)
+                       || mend_faces(&s->operator, tally, s->state.irradiance, &faces, &small) < 0;
     if (!failed)
         *error = add_large(s, tally, noise, &small);
     mended_faces_close(&faces);

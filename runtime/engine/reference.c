@@ -27,7 +27,7 @@
 #include "engine/state_identity.h"
 #include "engine/state_stream.h"
 #include "kernel/constants.h"
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 
 /* Random numbers that nothing else takes: a reference must not share its noise with what it
  * judges. Of paths each face has its own. */

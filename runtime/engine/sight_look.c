@@ -24,17 +24,15 @@ static double past_faces(const struct sight_look *l, const double x[3], const do
 {
     struct sight_between *b = l->between;
     const double up = l->tree->lift;
+    /* edges of two faces; measured */
+    const int most = b->faces > SIGHT_SHORT && b->faces <= SIGHT_CUT ? 3 : 4;
     if (l->by_bodies) {
         const double seen = sight_rims_past(&l->sight, x, n, up, l->bodies, whole);
         if (seen >= 0)
             return seen;
-        return sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
-    }
-    /* edges of two faces; measured */
-    const int most = b->faces > SIGHT_SHORT && b->faces <= SIGHT_CUT ? 3 : 4;
-    return !b->bent && 2 * b->edges <= most * b->faces
-               ? sight_past(&l->sight, x, n, up, b, whole)
-               : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
+    } else if (!b->bent && 2 * b->edges <= most * b->faces)
+        return sight_past(&l->sight, x, n, up, b, whole);
+    return sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
 }
 
 /* Faces in the plane of an end stand before nothing there, as rays start beyond them. A solid that

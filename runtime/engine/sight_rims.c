@@ -142,7 +142,9 @@ static void add_own(struct rim *rim, const struct outline_cell *cell, int i)
     for (int s = 0; s < c->count; s++) {
         const struct body_shadow *shadow = &c->shadow[s];
         double low = 1, high = 0;
-        for (int k = 0; k < shadow->n && rim->meets[s]; k++)
+        if (!rim->meets[s])
+            continue;
+        for (int k = 0; k < shadow->n; k++)
             if (shadow->by[k] == i) {
                 const double t0 = place_on(p, q, shadow->p[k]),
                              t1 = place_on(p, q, shadow->p[k + 1 < shadow->n ? k + 1 : 0]);

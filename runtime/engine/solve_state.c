@@ -11,7 +11,7 @@
 
 #include "engine/state_identity.h"
 #include "kernel/constants.h"
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 
 static const uint64_t NAME = 0x31767672616c6f73u; /* of this layout */
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 
 /* The hash of a text behind another hash; NULL: the hash as it is. */
 static uint64_t mix_text(uint64_t hash, const char *text)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 #include "util/array.h"
 
 /* Items that an array grows by at first; then it doubles. */

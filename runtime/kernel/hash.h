@@ -5,9 +5,7 @@
 #ifndef KERNEL_HASH_H
 #define KERNEL_HASH_H
 
-#include <stddef.h>
 #include <stdint.h>
-#include <string.h>
 
 /* What splitmix64 adds from one number to the next: 2^64 over the golden ratio, odd. */
 #define HASH_STEP 0x9e3779b97f4a7c15u
@@ -17,20 +15,6 @@ static inline uint64_t hash64(uint64_t x)
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
     x = (x ^ x >> 27) * 0x94d049bb133111ebu;
     return x ^ x >> 31;
-}
-
-/* Of so many bytes, behind another hash. */
-static inline uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
-{
-    const unsigned char *at = (const unsigned char *)bytes;
-    for (; size >= 8; size -= 8, at += 8) {
-        uint64_t word;
-        memcpy(&word, at, 8);
-        hash = hash64(hash + HASH_STEP + word);
-    }
-    for (; size > 0; size--)
-        hash = hash64(hash + HASH_STEP + *at++);
-    return hash;
 }
 
 /* In [0, 1), for the same x. */

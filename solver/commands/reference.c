@@ -16,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "commands/commands.h"
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "util/atomic_file.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "output/number_text.h"

@@ -9,7 +9,7 @@
 #include "commands/product_columns.h"
 #include "commands/ranks_report.h"
 #include "commands/sensor_rows.h"
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 #include "output/factor_file.h"
 #include "output/factor_names.h"
 #include "output/json_file.h"

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "scene/open_scene.h"
 
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 #include "util/device.h"
 #include "util/machines.h"
 #include "util/read_alike.h"
@@ -31,7 +31,8 @@ int open_whole_scene(struct open_scene *s, const char *path, const struct scene_
     int failed = scene_file_read(&s->file, path, options) < 0;
     s->originals = s->file.polygon_count;
     failed = failed || (copies && copies_add(&s->file, path, copies) < 0);
-    if (machines_agree(failed) || read_alike(path, identity(&s->file)) < 0)
+    if (machines_agree(failed)
+        || (machines_count() > 1 && read_alike(path, identity(&s->file)) < 0))
         return close_scene(s), -1;
     struct RadPolygons polygons = scene_file_polygons(&s->file);
     polygons.turned = turned;

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "engine/exchange_state.h"
-#include "kernel/hash.h"
+#include "kernel/hash_bytes.h"
 #include "runtime/make_tables.h"
 #include "suite.h"
 

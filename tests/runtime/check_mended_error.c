@@ -15,6 +15,30 @@
 
 /* Means over some runs, as shares of the reflected light: of L1 errors of polygons before and after
  * mending, of what is said of the last, and of the noise of particles alone. */
+/* Walls of n x n tiles whose light is known, and what particles count there. */
+struct trial {
+    struct scene scene;
+    struct solve s;
+    struct tracer t;
+    struct tally y;
+    double *truth;
+};
+
+static void trial_open(struct trial *w, int n, int particles, uint64_t stream,
+                       struct chance *chance)
+{
+    w->truth = tiled_open(&w->scene, &w->s, n, chance);
+    w->t = tracer_over(&w->s, 1);
+    traced(&w->y, &w->t, stream, particles * (int)w->scene.input_count);
+}
+
+/* links: to be freed; or NULL. */
+static void trial_close(struct trial *w, double *links)
+{
+    tally_close(&w->y);
+    close_known(&w->s, &w->scene, &w->t, w->truth, links);
+}
+
 struct means {
     double before, after, said, noise;
 };
@@ -26,31 +50,27 @@ static struct means mended(int n, int particles, double target, uint64_t seed)
     struct means m = {0, 0, 0, 0};
     struct chance chance = {hash64(seed)};
     for (uint64_t i = 0; i < RUNS; i++) {
-        struct scene scene;
-        struct solve s;
-        struct tally y;
+        struct trial w;
         struct face_noise noise;
         struct mended_faces after;
         struct mended_error left;
-        double *truth = tiled_open(&scene, &s, n, &chance);
-        const size_t values = (size_t)s.hierarchy.count * scene.bands;
+        trial_open(&w, n, particles, i + 1, &chance);
+        struct solve *s = &w.s;
+        const size_t values = (size_t)s->hierarchy.count * w.scene.bands;
         double *links = calloc(values, sizeof *links);
-        struct tracer t = tracer_over(&s, 1);
-        traced(&y, &t, i + 1, particles * (int)scene.input_count);
-        spoil(&s, truth, links, 0, &chance);
-        ck_assert_int_eq(face_noise_find(&s.problem, &s.hierarchy, links, &y, &noise), 0);
-        spoil(&s, truth, links, target * noise.all, &chance);
-        memcpy(s.state.irradiance, links, values * sizeof *links);
-        ck_assert_int_eq(mended_error_find(&s, &y, &noise, &left), 0);
-        ck_assert_mem_eq(s.state.irradiance, links, values * sizeof *links);
-        ck_assert_int_eq(mend_faces(&s.operator, & y, links, &after), 0);
-        m.before += true_errors(&s, truth, links).l1 / RUNS;
-        m.after += true_errors(&s, truth, after.irradiance).l1 / RUNS;
+        spoil(s, w.truth, links, 0, &chance);
+        ck_assert_int_eq(face_noise_find(&s->problem, &s->hierarchy, links, &w.y, &noise), 0);
+        spoil(s, w.truth, links, target * noise.all, &chance);
+        memcpy(s->state.irradiance, links, values * sizeof *links);
+        ck_assert_int_eq(mended_error_find(s, &w.y, &noise, &left), 0);
+        ck_assert_mem_eq(s->state.irradiance, links, values * sizeof *links);
+        ck_assert_int_eq(mend_faces(&s->operator, & w.y, links, &after, NULL), 0);
+        m.before += true_errors(s, w.truth, links).l1 / RUNS;
+        m.after += true_errors(s, w.truth, after.irradiance).l1 / RUNS;
         m.said += left.value / RUNS;
         m.noise += noise.all / RUNS;
-        tally_close(&y);
         mended_faces_close(&after);
-        close_known(&s, &scene, &t, truth, links);
+        trial_close(&w, links);
     }
     if (thorough())
         printf("%d tiles, %d particles each, links off by %4.2f noises: %.4f -> %.4f, said %.4f, "
@@ -108,29 +128,26 @@ static struct ends ends_of(double share, uint64_t seed)
     struct ends ends = {0, 0, 0};
     struct chance chance = {hash64(seed)};
     for (uint64_t i = 0; i < ENDS; i++) {
-        struct scene scene;
-        struct solve s;
-        struct tally y;
+        struct trial w;
         struct mended_reach reach;
         struct mended_faces after;
-        double *truth = tiled_open(&scene, &s, 14, &chance), *links = s.state.irradiance;
-        struct tracer t = tracer_over(&s, 1);
-        traced(&y, &t, i + 1, 64 * (int)scene.input_count);
-        for (uint32_t f = 0; f < scene.face_count; f++) {
+        trial_open(&w, 14, 64, i + 1, &chance);
+        const uint32_t bands = w.scene.bands;
+        double *links = w.s.state.irradiance;
+        for (uint32_t f = 0; f < w.scene.face_count; f++) {
             const double off = share * chance_normal(&chance);
-            for (uint32_t k = 0; k < scene.bands; k++)
-                links[s.hierarchy.face_element[f] * scene.bands + k] =
-                    truth[f * scene.bands + k] * fmax(0.1, 1 + off);
+            for (uint32_t k = 0; k < bands; k++)
+                links[w.s.hierarchy.face_element[f] * bands + k] =
+                    w.truth[f * bands + k] * fmax(0.1, 1 + off);
         }
-        ck_assert_int_eq(mended_reach_find(&s, &y, &reach), 0);
-        ck_assert_int_eq(mend_faces(&s.operator, & y, links, &after), 0);
-        const double left = true_errors(&s, truth, after.irradiance).l1;
+        ck_assert_int_eq(mended_reach_find(&w.s, &w.y, &reach), 0);
+        ck_assert_int_eq(mend_faces(&w.s.operator, & w.y, links, &after, NULL), 0);
+        const double left = true_errors(&w.s, w.truth, after.irradiance).l1;
         ends.after += left / ENDS;
         ends.most += reach.l1 / ENDS;
         ends.beyond += left > reach.l1;
-        tally_close(&y);
         mended_faces_close(&after);
-        close_known(&s, &scene, &t, truth, NULL);
+        trial_close(&w, NULL);
     }
     if (thorough())
         printf("links off by %.2f: %.4f are left, at most %.4f, %d of %d beyond\n", share,
@@ -280,7 +297,7 @@ static void check_sum(double many, uint64_t seed)
     tilt(&s, truth, 1, links);
     const double whole = sum_of(&s, links) - right;
     tilt(&s, truth, whole > 1e-9 * right ? many * noise / whole : 0, links);
-    ck_assert_int_eq(mend_faces(&s.operator, & y, links, &after), 0);
+    ck_assert_int_eq(mend_faces(&s.operator, & y, links, &after, NULL), 0);
     const double off = fabs(sum_of(&s, after.irradiance) - counted),
                  linked = fabs(sum_of(&s, links) - counted),
                  evidence = sqrt(1 + MEND_EVIDENCE * sqrt(2)) * noise;

@@ -157,14 +157,17 @@ ends() { # WHAT: within 30 s of $since, with something else than 0, in $status
     check "$1: status $status" [ "$status" != 0 ]
     check "$1: it took $((SECONDS - since)) s" [ $((SECONDS - since)) -lt 30 ]
 }
-for blocks in 100 800; do # of 1 KB: before the first pass is written, and behind it
+full_disk() { # WHAT BLOCKS OPTIONS...: of 1 KB, on which a solve writes full.h5
     rm -f full.h5
     since=$SECONDS
     # without memory that they share, whose files would be as large
-    mpirun --oversubscribe -n 3 --mca btl tcp,self sh -c "ulimit -f $blocks; trap '' XFSZ; exec timeout 60 $radiosity solve $scene -q --threads 1 --checkpoint full.h5 --json a.json" >out 2>said
+    mpirun --oversubscribe -n 3 --mca btl tcp,self sh -c "ulimit -f $2; trap '' XFSZ; exec timeout 60 $radiosity solve $scene -q --threads 1 ${*:3}" >out 2>said
     status=$?
-    ends "a full disk, $blocks"
-    check "a full disk: one message: $(grep error: said)" [ "$(grep -c "^full.h5: error: cannot write: " said)" = 1 ]
+    ends "$1, $2"
+    check "$1: one message: $(grep error: said)" [ "$(grep -c "^full.h5: error: cannot write: " said)" = 1 ]
+}
+for blocks in 100 800; do # before the first pass is written, and behind it
+    full_disk "a full disk" $blocks --checkpoint full.h5 --json a.json
     check "a full disk: nothing else fails: $(grep -i -m 1 'signal' said)" [ "$(grep -ci 'signal' said)" = 0 ]
     [ -e full.h5 ] || continue
     check "a full disk: it goes on" mpirun --oversubscribe -n 2 "$radiosity" solve "$scene" -q --threads 1 --restart full.h5 --json a.json
@@ -172,12 +175,7 @@ for blocks in 100 800; do # of 1 KB: before the first pass is written, and behin
 done
 check "a full disk left the last good file" [ -e full.h5 ]
 # one of them writes this file alone, and the others end with it
-rm -f full.h5
-since=$SECONDS
-mpirun --oversubscribe -n 3 --mca btl tcp,self sh -c "ulimit -f 100; trap '' XFSZ; exec timeout 60 $radiosity solve $scene -q --threads 1 -o full.xdmf" >out 2>said
-status=$?
-ends "a full disk for a mesh"
-check "a full disk for a mesh: one message: $(grep error: said)" [ "$(grep -c "^full.h5: error: cannot write: " said)" = 1 ]
+full_disk "a full disk for a mesh" 100 -o full.xdmf
 check "a full disk for a mesh: nothing is left" [ -z "$(ls full.* 2>/dev/null)" ]
 
 # a folder that one of three has for itself: the others would wait for it to find the file
