@@ -31,10 +31,13 @@ static inline void embree_intersect(RTCScene scene, struct RTCRayHit *query,
 }
 
 /* Of rays that go one way. */
-static inline void embree_intersect_16(RTCScene scene, const int *valid, struct RTCRayHit16 *query)
+static inline void embree_intersect_16(RTCScene scene, const int *valid, struct RTCRayHit16 *query,
+                                       RTCFilterFunctionN filter)
 {
     struct RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
+    arguments.filter = filter;
+    arguments.flags = filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_NONE;
     rtcIntersect16(valid, scene, query, &arguments);
 }
 
@@ -65,10 +68,12 @@ static inline void embree_intersect(RTCScene scene, struct RTCRayHit *query,
     rtcIntersect1(scene, &context, query);
 }
 
-static inline void embree_intersect_16(RTCScene scene, const int *valid, struct RTCRayHit16 *query)
+static inline void embree_intersect_16(RTCScene scene, const int *valid, struct RTCRayHit16 *query,
+                                       RTCFilterFunctionN filter)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    context.filter = filter;
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect16(valid, scene, &context, query);
 }

@@ -1,10 +1,9 @@
 /* ray_hits.c - what a ray meets first, and from which side.
  *
  * A face of one side is black from behind; where a front lies in the place of a back that is met,
- * the front is. Rays are cast each alone, but for those that only ask for backs.
+ * the front is. Rays are cast each alone, but for those that only ask for backs: sixteen at a time.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <string.h>
 #include "kernel/constants.h"
 #include "visibility/back_faces.h"
 #include "visibility/rays_within.h"
@@ -65,26 +64,37 @@ static void intersect(const struct rays *rays, struct RTCRayHit *query, int fron
     embree_intersect(rays->scene, query, fronts ? fronts_alone : NULL);
 }
 
+/* From where to where (in directions) a ray that is `far` long is near its end, as near as rays can
+ * tell. */
+static void look_near(const struct rays *rays, const float way[3], float *from, float *far)
+{
+    const float near = (float)(rays->host.ray_offset * rays->scale)
+                       / sqrtf(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    *from = fmaxf(0, *far - near);
+    *far += near;
+}
+
+/* Normals of any length. */
+static int are_back_to_back(const float a[3], const float b[3])
+{
+    const float cosine = -(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]),
+                sizes = sqrtf((a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+                              * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
+    return cosine > (float)GROUP_COSINE * sizes;
+}
+
 /* Where two one-sided faces lie back to back in one plane, a ray meets either of them first, by
- * rounding. So of a black back that is met it is asked whether a front lies in the same place, as
- * near as rays can tell; then that is met. Returns 1 when it is. */
+ * rounding. So of a black back that is met it is asked whether a front lies in the same place; then
+ * that is met. Returns 1 when it is. */
 static int front_there(const struct rays *rays, struct RTCRayHit *query)
 {
     struct RTCRayHit again = {.ray = query->ray};
-    const float near =
-        (float)(rays->host.ray_offset * rays->scale)
-        / sqrtf(query->ray.dir_x * query->ray.dir_x + query->ray.dir_y * query->ray.dir_y
-                + query->ray.dir_z * query->ray.dir_z);
-    again.ray.tnear = fmaxf(0, query->ray.tfar - near);
-    again.ray.tfar = query->ray.tfar + near;
+    const float way[3] = {again.ray.dir_x, again.ray.dir_y, again.ray.dir_z},
+                back[3] = {query->hit.Ng_x, query->hit.Ng_y, query->hit.Ng_z};
+    look_near(rays, way, &again.ray.tnear, &again.ray.tfar);
     intersect(rays, &again, 1);
-    if (again.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return 0;
-    const struct RTCHit *a = &again.hit, *b = &query->hit;
-    float cosine = -(a->Ng_x * b->Ng_x + a->Ng_y * b->Ng_y + a->Ng_z * b->Ng_z),
-          sizes = sqrtf((a->Ng_x * a->Ng_x + a->Ng_y * a->Ng_y + a->Ng_z * a->Ng_z)
-                        * (b->Ng_x * b->Ng_x + b->Ng_y * b->Ng_y + b->Ng_z * b->Ng_z));
-    if (!(cosine > (float)GROUP_COSINE * sizes))
+    const float front[3] = {again.hit.Ng_x, again.hit.Ng_y, again.hit.Ng_z};
+    if (again.hit.geomID == RTC_INVALID_GEOMETRY_ID || !are_back_to_back(front, back))
         return 0;
     *query = again;
     return 1;
@@ -128,27 +138,44 @@ enum ray_fate rays_first(const struct rays *rays, const double from[3], const do
                                                                               : RAY_MEETS_FRONT;
 }
 
-/* A ray of a packet, and what it met. */
-static struct RTCRayHit one_of(const struct RTCRayHit16 *packet, int i)
+/* Rays of a packet that come from behind what they meet, which is black there. */
+static unsigned black_backs(const struct rays *rays, const struct RTCRayHit16 *query,
+                            const int valid[16])
 {
-    const struct RTCRay16 *ray = &packet->ray;
-    const struct RTCHit16 *hit = &packet->hit;
-    struct RTCRayHit one;
-    memset(&one, 0, sizeof one);
-    one.ray.org_x = ray->org_x[i];
-    one.ray.org_y = ray->org_y[i];
-    one.ray.org_z = ray->org_z[i];
-    one.ray.dir_x = ray->dir_x[i];
-    one.ray.dir_y = ray->dir_y[i];
-    one.ray.dir_z = ray->dir_z[i];
-    one.ray.tfar = ray->tfar[i];
-    one.ray.mask = ray->mask[i];
-    one.hit.Ng_x = hit->Ng_x[i];
-    one.hit.Ng_y = hit->Ng_y[i];
-    one.hit.Ng_z = hit->Ng_z[i];
-    one.hit.primID = hit->primID[i];
-    one.hit.geomID = hit->geomID[i];
-    return one;
+    const struct RTCRay16 *ray = &query->ray;
+    const struct RTCHit16 *hit = &query->hit;
+    unsigned backs = 0;
+    for (int i = 0; i < 16; i++)
+        if (valid[i] && hit->geomID[i] != RTC_INVALID_GEOMETRY_ID
+            && rays->behind[rays->face[hit->primID[i]]] == BLACK_BACK)
+            backs |= (unsigned)(hit->Ng_x[i] * ray->dir_x[i] + hit->Ng_y[i] * ray->dir_y[i]
+                                    + hit->Ng_z[i] * ray->dir_z[i]
+                                > 0)
+                     << i;
+    return backs;
+}
+
+/* As front_there, of those rays of a packet: of which is there one? */
+static unsigned fronts_there(const struct rays *rays, const struct RTCRayHit16 *query,
+                             unsigned which)
+{
+    struct RTCRayHit16 again = *query;
+    _Alignas(64) int valid[16];
+    unsigned fronts = 0;
+    for (int i = 0; i < 16; i++) {
+        const float way[3] = {again.ray.dir_x[i], again.ray.dir_y[i], again.ray.dir_z[i]};
+        valid[i] = which >> i & 1 ? -1 : 0;
+        look_near(rays, way, &again.ray.tnear[i], &again.ray.tfar[i]);
+        again.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    embree_intersect_16(rays->scene, valid, &again, fronts_alone);
+    for (int i = 0; i < 16; i++) {
+        const float a[3] = {again.hit.Ng_x[i], again.hit.Ng_y[i], again.hit.Ng_z[i]},
+                    b[3] = {query->hit.Ng_x[i], query->hit.Ng_y[i], query->hit.Ng_z[i]};
+        if (valid[i] && again.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
+            fronts |= (unsigned)are_back_to_back(a, b) << i;
+    }
+    return fronts;
 }
 
 unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsigned which,
@@ -156,7 +183,6 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
 {
     struct RTCRayHit16 query;
     _Alignas(64) int valid[16];
-    unsigned backs = 0;
     const float way[3] = {embree_way(rays, direction, 0), embree_way(rays, direction, 1),
                           embree_way(rays, direction, 2)};
     for (int i = 0; i < 16; i++) {
@@ -174,15 +200,9 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
         query.ray.id[i] = query.ray.flags[i] = 0;
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    embree_intersect_16(rays->scene, valid, &query);
-    for (int i = 0; i < 16; i++) {
-        if (!valid[i] || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-            || rays->behind[rays->face[query.hit.primID[i]]] != BLACK_BACK)
-            continue;
-        _Alignas(16) struct RTCRayHit one = one_of(&query, i);
-        backs |= (unsigned)meets_behind(rays, &one) << i;
-    }
-    return backs;
+    embree_intersect_16(rays->scene, valid, &query, NULL);
+    const unsigned backs = black_backs(rays, &query, valid);
+    return backs ? backs & ~fronts_there(rays, &query, backs) : 0;
 }
 
 int64_t rays_meet(const struct rays *rays, const double from[3], const double direction[3],

@@ -1,5 +1,6 @@
 /* check_contact.c - the share of a surface that a solid stands on, against the part of its outline,
- * and that no part which one covers is taken for free of any.
+ * that no part which one covers is taken for free of any, and that rays side by side meet the backs
+ * that each meets alone.
  * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
@@ -165,11 +166,61 @@ START_TEST(stands)
 }
 END_TEST
 
+/* Over the floor hang two faces that show their backs to it: one alone, one with a front in the
+ * same place, of other corners. Rays that go the same way from sixteen points of the floor. */
+START_TEST(side_by_side)
+{
+    const double zero[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, half[3] = {0.5, 0, 0};
+    uint64_t seed = 7;
+    int fronts = 0, backs = 0;
+    for (int n = 0; n < SCENES; n++) {
+        const struct frame f = any_frame(&seed);
+        const double low[3] = {0, 0, 0.3}, right[3] = {0.5, 0, 0.3}, behind[3] = {-0.1, -0.1, 0.3},
+                     wide[3] = {0.8, 0, 0}, deep[3] = {0, 1.3, 0}, ones[4] = {1, 1, 1, 1};
+        struct scene scene;
+        struct hierarchy h;
+        const char *cause;
+        made_open(&scene);
+        made_material(&scene, 0.5, 1);
+        add(&scene, &f, zero, x, y);
+        add(&scene, &f, low, half, y);
+        add(&scene, &f, right, half, y);
+        add(&scene, &f, behind, deep, wide); /* looks down */
+        ck_assert_int_eq(hierarchy_build(&h, scene.faces, scene.face_count), 0);
+        struct rays *rays = rays_open(&h, ones, ones, 1, &cause);
+        ck_assert(rays);
+        double from[16][3], way[3];
+        for (int k = 0; k < 3; k++)
+            way[k] = f.axis[2][k] + (chance(&seed) - 0.5) * f.axis[0][k];
+        for (int i = 0; i < 16; i++) {
+            const double u = chance(&seed), v = chance(&seed);
+            for (int k = 0; k < 3; k++)
+                from[i][k] = f.origin[k] + f.unit * (u * f.axis[0][k] + v * f.axis[1][k])
+                             + rays_host(rays)->ray_offset * f.axis[2][k];
+        }
+        const unsigned which = (unsigned)(0xffff * chance(&seed)),
+                       met = rays_meet_backs(rays, (const double(*)[3])from, which, way);
+        for (int i = 0; i < 16; i++) {
+            const enum ray_fate alone = rays_first(rays, from[i], way, NULL, NULL);
+            ck_assert_int_eq(met >> i & 1, (which >> i & 1) && alone == RAY_MEETS_BACK);
+            fronts += alone == RAY_MEETS_FRONT;
+            backs += alone == RAY_MEETS_BACK;
+        }
+        rays_close(rays);
+        hierarchy_free(&h);
+        made_close(&scene);
+    }
+    ck_assert_int_gt(fronts, 100);
+    ck_assert_int_gt(backs, 40);
+}
+END_TEST
+
 int main(void)
 {
     Suite *s = suite_create("contact");
     TCase *c = tcase_create("contact");
     tcase_add_test(c, stands);
+    tcase_add_test(c, side_by_side);
     suite_add_tcase(s, c);
     return suite_failures(s) != 0;
 }
