@@ -24,6 +24,82 @@
 #ifndef REFINER_TOOL_CLUSTERS_H
 #define REFINER_TOOL_CLUSTERS_H
 
+/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so
+ * that a pair opens the same element both ways round. */
+#ifndef REFINER_KERNEL_WIDER_H
+#define REFINER_KERNEL_WIDER_H
+
+
+static inline int refiner_wider(const struct refiner_element *a, const struct refiner_element *b)
+{
+    return a->radius > b->radius || (a->radius == b->radius && a->id <= b->id);
+}
+
+#endif
+
+/* Does all of `e` face away from all of `other`? `v` leads from e's centre to the other's. */
+static inline int refiner_clusters_turned(const struct refiner_element *e, const struct refiner_element *other,
+                                  const double v[3], double longest, double flat)
+{
+    const double *a = e->normal;
+    if (e->cone <= 0)
+        return 0;
+    double m = refiner_dot3(a, v);
+    for (int i = 0; i < 2; i++) {
+        const struct refiner_element *b = i ? other : e;
+        if (b->vertices) {
+            if (b == other)
+                m += b->radius;
+        } else {
+            for (int k = 0; k < 3; k++)
+                m += 0.5 * fabs(a[k]) * (b->vertex[1][k] - b->vertex[0][k]);
+        }
+    }
+    if (m > flat)
+        return 0;
+    double across = longest * longest - m * m;
+    double sine = 1 - e->cone * e->cone;
+    return m * e->cone + (across > 0 && sine > 0 ? sqrt(across * sine) : 0) <= flat;
+}
+
+REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_discussion *d)
+{
+    const struct refiner_element *r = d->receiver, *s = d->emitter;
+    double v[3];
+    if (r->vertices && s->vertices)
+        return REFINER_CLUSTERS_SURFACES;
+    refiner_sub3(v, s->centre, r->centre);
+    double longest = refiner_length3(v) + r->radius + s->radius;
+    const double flat = d->host->flat; /* no more: plates with a narrow gap exchange light */
+    if (refiner_clusters_turned(r, s, v, longest, flat))
+        return REFINER_CLUSTERS_APART;
+    v[0] = -v[0];
+    v[1] = -v[1];
+    v[2] = -v[2];
+    if (refiner_clusters_turned(s, r, v, longest, flat))
+        return REFINER_CLUSTERS_APART;
+    if (r->vertices || s->vertices)
+        return s->vertices ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
+    return refiner_wider(r, s) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
+}
+
+#endif
+
+/* support_planes.h - question: how do two surfaces lie to each other's support planes?
+ *
+ * away when one has no part in front of the other: no light can pass. A corner nearer to a
+ * plane than rounding puts it lies in the plane, so coplanar and adjoining surfaces get a precise
+ * answer.
+ * [Turbet & Sillion, section 3.1.3 and figure 2] */
+#ifndef REFINER_TOOL_SUPPORT_PLANES_H
+#define REFINER_TOOL_SUPPORT_PLANES_H
+
+/* plane_side.h - how an element lies to another's support plane.
+ * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get
+ * an exact answer. */
+#ifndef REFINER_KERNEL_PLANE_SIDE_H
+#define REFINER_KERNEL_PLANE_SIDE_H
+
 /* constants.h - every threshold that decides an answer: its value, unit, and reason.
  *
  * One home for each, and this is the page that lists them. The reason is a source, a derivation, or
@@ -720,82 +796,6 @@
 #define REFINER_LIMIT_ROUNDS 10000000
 
 #endif
-/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so
- * that a pair opens the same element both ways round. */
-#ifndef REFINER_KERNEL_WIDER_H
-#define REFINER_KERNEL_WIDER_H
-
-
-static inline int refiner_wider(const struct refiner_element *a, const struct refiner_element *b)
-{
-    return a->radius > b->radius || (a->radius == b->radius && a->id <= b->id);
-}
-
-#endif
-
-/* Does all of `e` face away from all of `other`? `v` leads from e's centre to the other's. */
-static inline int refiner_clusters_turned(const struct refiner_element *e, const struct refiner_element *other,
-                                  const double v[3], double longest, double flat)
-{
-    const double *a = e->normal;
-    if (e->cone <= 0)
-        return 0;
-    double m = refiner_dot3(a, v);
-    for (int i = 0; i < 2; i++) {
-        const struct refiner_element *b = i ? other : e;
-        if (b->vertices) {
-            if (b == other)
-                m += b->radius;
-        } else {
-            for (int k = 0; k < 3; k++)
-                m += 0.5 * fabs(a[k]) * (b->vertex[1][k] - b->vertex[0][k]);
-        }
-    }
-    if (m > flat)
-        return 0;
-    double across = longest * longest - m * m;
-    double sine = 1 - e->cone * e->cone;
-    return m * e->cone + (across > 0 && sine > 0 ? sqrt(across * sine) : 0) <= flat;
-}
-
-REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_discussion *d)
-{
-    const struct refiner_element *r = d->receiver, *s = d->emitter;
-    double v[3];
-    if (r->vertices && s->vertices)
-        return REFINER_CLUSTERS_SURFACES;
-    refiner_sub3(v, s->centre, r->centre);
-    double longest = refiner_length3(v) + r->radius + s->radius;
-    double flat = d->host->flat + REFINER_PLANE_FLAT * (r->radius + s->radius);
-    if (refiner_clusters_turned(r, s, v, longest, flat))
-        return REFINER_CLUSTERS_APART;
-    v[0] = -v[0];
-    v[1] = -v[1];
-    v[2] = -v[2];
-    if (refiner_clusters_turned(s, r, v, longest, flat))
-        return REFINER_CLUSTERS_APART;
-    if (r->vertices || s->vertices)
-        return s->vertices ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
-    return refiner_wider(r, s) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
-}
-
-#endif
-
-/* support_planes.h - question: how do two surfaces lie to each other's support planes?
- *
- * away when one has no part in front of the other: no light can pass. A corner nearer to a
- * plane than rounding puts it lies in the plane, so coplanar and adjoining surfaces get a precise
- * answer.
- * [Turbet & Sillion, section 3.1.3 and figure 2] */
-#ifndef REFINER_TOOL_SUPPORT_PLANES_H
-#define REFINER_TOOL_SUPPORT_PLANES_H
-
-/* plane_side.h - how an element lies to another's support plane.
- * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get
- * an exact answer. */
-#ifndef REFINER_KERNEL_PLANE_SIDE_H
-#define REFINER_KERNEL_PLANE_SIDE_H
-
 
 /* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of
  * the elements' corners. */

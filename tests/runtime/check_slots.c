@@ -107,6 +107,26 @@ START_TEST(test_hair)
 }
 END_TEST
 
+/* A flat closed box: its floor and its lid see each other, whatever the gap. */
+START_TEST(test_flat_box)
+{
+    static const double GAP[] = {1e-4, 2e-5, 1e-5, 5e-6};
+    static double f[FACES], area[FACES];
+    const double gap = GAP[_i], o[3] = {0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, up[3] = {0, 0, gap},
+                 low[2][2] = {{0, 0}, {0, 0}}, high[2][2] = {{1, 1}, {1, 1}};
+    clear();
+    rectangle(o, x, y);
+    rectangle(up, y, x);
+    rectangle(o, y, up);
+    rectangle(x, up, y);
+    rectangle(o, up, x);
+    rectangle(y, x, up);
+    factors(1, 0, f, area);
+    ck_assert_double_eq_tol(f[1], closed_offset(low, high, gap), 1e-8);
+    ck_assert_double_eq_tol(row_sum(f, 0), 1, 1e-8);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("slots");
@@ -114,6 +134,7 @@ int main(void)
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_pit, 0, sizeof pit / sizeof *pit);
     tcase_add_loop_test(t, test_hair, 0, under_sanitizers() ? 12 : 60);
+    tcase_add_loop_test(t, test_flat_box, 0, 4);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
