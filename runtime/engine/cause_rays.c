@@ -65,11 +65,13 @@ static void add_arrival(const struct cause_rays *c, const struct link_cover *cov
 
 /* The share of light from y of an emitter, found from p, by a ray of either kind; chance: that the
  * emitter is chosen (paths.c). */
-static double share_of(const struct element *from, const double p[3], const struct element *emitter,
-                       const double y[3], double chance)
+static double share_of(const struct tracer *t, uint32_t face, const double p[3],
+                       const struct element *emitter, const double y[3], double chance)
 {
     static const struct path_rays each = {1, 1};
-    double by_cosine = lambert_points(p, from->normal, y, emitter->normal, 0);
+    double on[3];
+    tracer_on_surface(t, face, p, on);
+    double by_cosine = lambert_points(on, tracer_surface(t, face)->normal, y, emitter->normal, 0);
     return by_cosine > 0 ? path_share(&each, by_cosine, chance / emitter->area) : 0;
 }
 
@@ -88,7 +90,7 @@ static void look_for_light(const struct cause_rays *c, const struct link_cover *
     tracer_point(t, face, u[1], u[2], y);
     for (int d = 0; d < 3; d++)
         y[d] -= rays_host(t->rays)->ray_offset * emitter->normal[d];
-    double share = share_of(from, p, emitter, y, chance);
+    double share = share_of(t, at->face, p, emitter, y, chance);
     sub3(way, y, p);
     /* not whether something is between: of two faces in one place the other kind of ray meets one
      */
@@ -153,7 +155,8 @@ uint64_t cause_rays_cast(const struct cause_rays *c, const struct link_cover *co
     if (met >= 0) {
         uint32_t face = (uint32_t)met;
         double chance = light_tree_chance(&t->light_tree, from, leaf->normal, face);
-        double share = chance > 0 ? share_of(leaf, from, tracer_surface(t, face), y, chance) : 1;
+        double share =
+            chance > 0 ? share_of(t, at->face, from, tracer_surface(t, face), y, chance) : 1;
         add_arrival(c, cover, at, face, y, share);
     }
     /* Of a Sobol' sequence with the place, too; that it goes with the direction does no harm: each

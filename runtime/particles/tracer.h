@@ -84,9 +84,9 @@ static inline double dice_throw(struct dice *d)
     return (double)(hash64(d->state += HASH_STEP) >> 11) * 0x1p-53;
 }
 
-/* From p, just in front of the face, in the direction by the cosine that (u, v) in [0, 1)^2 stand
- * for: the face whose front is met, with p moved just in front of it; or what is below 0, as
- * rays_meet says. `at`: where it is met, in its plane; may be NULL. */
+/* From the point of the face that p is just in front of, in the direction by the cosine that (u, v)
+ * in [0, 1)^2 stand for: the face whose front is met, with p moved just in front of it; or what is
+ * below 0, as rays_meet says. `at`: where it is met, in its plane; may be NULL. */
 int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u, double v,
                     double at[3]);
 
@@ -95,6 +95,10 @@ double tracer_reflectance(const struct tracer *t, uint32_t face);
 
 /* A point spread evenly over the face by (u, v) in [0, 1)^2, just in front of it. */
 void tracer_point(const struct tracer *t, uint32_t face, double u, double v, double p[3]);
+
+/* The point of the face that p is just in front of: directions that tracer_step takes start there.
+ */
+void tracer_on_surface(const struct tracer *t, uint32_t face, const double p[3], double on[3]);
 
 static inline const struct element *tracer_surface(const struct tracer *t, uint32_t face)
 {
