@@ -7,7 +7,9 @@
  * Power. What they counted of all light is right in the mean, whatever was made of it. So what both
  * counted is weighed by variances. Where the two are farther apart than these allow, some light may
  * be seen by few: then the variance of the mean is larger by the square of how much.
- * [Birge 1932]
+ * [Birge 1932] And as with those that measure (face_error.c) one particle more may have been
+ * spared: in a closed room of one reflectance all of them agree, to the last bit, on light of which
+ * a crack or a dark patch that none has met takes a part.
  *
  * L1. What mending leaves is an unbiased estimate of risk (mend_risk.c), of large polygons the
  * whole noise of the particles, and the upper end of both is known (mended_error.c). Nothing is
@@ -30,6 +32,10 @@ int mended_reach_find(const struct solve *s, const struct tally *tally, struct m
         || mended_error_find(s, tally, &noise, &left) < 0)
         return -1;
     reach->light = reflected_light(&s->problem, tally, &reach->variance);
+    if (!tally->by_paths && tally->particles > 0) { /* of paths the variance has it */
+        const double one = reach->light / ((double)tally->particles * REPLICATES);
+        reach->variance += one * one;
+    }
     if (!(reach->light > 0 && left.most > 0))
         return 0;
     reach->left = left.value;

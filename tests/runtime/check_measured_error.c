@@ -538,21 +538,28 @@ START_TEST(test_bare)
 }
 END_TEST
 
-/* A white room with a black patch that no particle may meet: what it takes of the light, 1e-4, is
- * not seen, and nobody is sure that it is not there. */
+/* A white room with a black patch that no particle may meet. Returns what it takes of the light. */
+static double patched_room(struct scene *scene, double rho)
+{
+    const double side = 2.45e-3, share = side * side / 6;
+    made_open(scene);
+    made_material(scene, rho, 1);
+    made_material(scene, 0, 0);
+    const uint32_t walls[6] = {0};
+    made_room(scene, walls, 1, 1, 1);
+    made_quad(scene, 1, 0.4, 0.4, 1e-4, side, 0, 0, 0, side, 0);
+    return share / (1 - rho);
+}
+
+/* What the patch takes, 1e-4, is not seen, and nobody is sure that it is not there. */
 START_TEST(test_spared)
 {
     enum { TRIALS = 40 };
-    const double rho = 0.99, side = 2.45e-3, share = side * side / 6, taken = share / (1 - rho);
+    const double rho = 0.99;
     int missed = 0, sure = 0;
     struct scene scene;
     struct solve s;
-    made_open(&scene);
-    made_material(&scene, rho, 1);
-    made_material(&scene, 0, 0);
-    const uint32_t walls[6] = {0};
-    made_room(&scene, walls, 1, 1, 1);
-    made_quad(&scene, 1, 0.4, 0.4, 1e-4, side, 0, 0, 0, side, 0);
+    const double taken = patched_room(&scene, rho);
     open_known(&s, &scene);
     struct tracer t = tracer_over(&s, 1);
     double *solved = malloc(s.hierarchy.count * sizeof *solved);
@@ -572,6 +579,31 @@ START_TEST(test_spared)
     check_misses("a patch that is spared", missed, TRIALS);
     free(solved);
     tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* Nor are those that mend, who may not have met it either: what they know of the power narrows what
+ * others measure, and alone they differ by nothing but rounding. */
+START_TEST(test_spared_by_all)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone, m;
+    const char *cause;
+    const double taken = patched_room(&scene, 0.99);
+    solve_known(&s, &scene, "bf_guarded");
+    ck_assert_int_eq(
+        measure_and_mend(&s, &(struct mending_goal){.noise = 0.01, .most = 20000}, &alone, &cause),
+        0);
+    for (uint32_t stream = 1; stream <= 8; stream++) {
+        ck_assert_int_eq(measure_error(&s, 10000, stream, 0, &m, &cause), 0);
+        ck_assert_double_gt(m.faces.power.high - m.faces.power.low, taken);
+        ck_assert_double_le(m.faces.l1.low, 1e-9);
+        measured_error_free(&m);
+    }
+    measured_error_free(&alone);
     solve_close(&s);
     made_close(&scene);
 }
@@ -635,6 +667,7 @@ int main(void)
     tcase_add_test(tests, test_streams);
     tcase_add_test(tests, test_cancel);
     tcase_add_test(tests, test_spared);
+    tcase_add_test(tests, test_spared_by_all);
     tcase_add_loop_test(tests, test_bare, 0, 5);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
