@@ -279,17 +279,27 @@ static uint32_t stays_on(const struct loss *losses, size_t count, const struct l
     return x->on;
 }
 
-/* Tell of the losses. lost[]: 1 of polygons that have any. */
+enum { LOST = 1, LOST_TOLD = 2, LOST_ROUND = 4 };
+
+/* Tell of the losses. lost[]: of polygons that have any what has been told of them. One that lies
+ * on itself has an outline that goes round a place more than once. */
 static void tell(struct scene *s, const struct loss *losses, size_t count, uint8_t *lost)
 {
     for (size_t i = 0; i < count; i++) {
-        const uint32_t polygon = s->faces[losses[i].face].input;
-        if (!lost[polygon] && s->overlaps < RAD_OVERLAPS_NAMED)
-            s->overlap[s->overlaps] =
-                (struct RadOverlap){polygon, s->faces[stays_on(losses, count, &losses[i])].input};
-        s->overlaps += !lost[polygon];
+        const uint32_t polygon = s->faces[losses[i].face].input,
+                       on = s->faces[stays_on(losses, count, &losses[i])].input;
+        const uint8_t told = lost[polygon];
+        if (on == polygon) {
+            if (!(told & LOST_ROUND) && (!s->crossing++ || polygon < s->crossing_first))
+                s->crossing_first = polygon;
+            lost[polygon] |= LOST | LOST_ROUND;
+            continue;
+        }
+        if (!(told & LOST_TOLD) && s->overlaps < RAD_OVERLAPS_NAMED)
+            s->overlap[s->overlaps] = (struct RadOverlap){polygon, on};
+        s->overlaps += !(told & LOST_TOLD);
         s->overlap_area += losses[i].area;
-        lost[polygon] = 1;
+        lost[polygon] |= LOST | LOST_TOLD;
     }
 }
 

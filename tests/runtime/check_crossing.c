@@ -171,7 +171,7 @@ static double area_of(const struct outline *o, uint32_t *crossing)
 }
 
 /* By hand: a bow tie, also with unequal loops and with its knot a corner; a five-pointed star drawn
- * in one line; what only touches itself does not cross. */
+ * in one line; a square gone round twice; what only touches itself does not cross. */
 START_TEST(test_known)
 {
     struct outline star = {.n = 5};
@@ -190,6 +190,7 @@ START_TEST(test_known)
         {{{{0, 0}, {1, 0}, {.5, .5}, {0, 1}, {1, 1}, {.5, .5}}, 6}, .5, 1},
         {{{{0, 0}, {1, 0}, {.5, .5}, {-.5, 1.5}, {1.5, 1.5}, {.5, .5}}, 6}, 1.25, 1},
         {star, 5 * inner * sin(step), 1},
+        {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {1, 1}, {0, 1}}, 8}, 1, 1},
         {{{{0, 0}, {1, 0}, {.5, .5}, {1, 1}, {0, 1}, {.5, .5}}, 6}, .5, 0},
         {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 4}, 1, 0},
         {{{{0, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}, {.5, .5}, {.5, 1}, {1, 1}, {1, .5}, {.5, .5}},
