@@ -71,17 +71,21 @@ def oracles():
 
 
 def _open_oracle(device, oracle, parameters):
-    name = ffi.string(lib.radGetDefaultOracle()) if oracle is None else os.fspath(oracle).encode()
+    name = ffi.string(lib.radGetDefaultOracle()) if oracle is None else os.fsencode(oracle)
+    if b"\0" in name:
+        raise InvalidInput(f"the oracle's name {oracle!r} has a NUL in it")
     if name.endswith(b".dag"):
         handle = device.call(lib.radLoadOracle, device.handle, name, ffi.NULL, lib.RAD_RELEASE_DAG,
                              release=lib.radReleaseOracle)
-    elif name.decode() not in oracles():
-        raise InvalidInput(f"there is no built-in oracle {name.decode()!r}; give the name of a .dag file, or one of "
-                           + ", ".join(oracles()))
+    elif os.fsdecode(name) not in oracles():
+        raise InvalidInput(f"there is no built-in oracle {os.fsdecode(name)!r}; give the name of a .dag file, or one "
+                           "of " + ", ".join(oracles()))
     else:
         handle = device.call(lib.radNewOracle, device.handle, name, lib.RAD_RELEASE_FLAT,
                              release=lib.radReleaseOracle)
     for parameter, value in (parameters or {}).items():
+        if not isinstance(parameter, str) or not isinstance(value, numbers.Real):
+            raise InvalidInput(f"parameters has {value!r} for {parameter!r}; it must be a number for a name")
         device.call(lib.radSetOracleParameter, handle, parameter.encode(), value)
     return handle
 

@@ -233,7 +233,12 @@ def test_errors():
     raises(wrong, "tolerance is -1", scene.view_factors, tolerance=-1)
     raises(wrong, "no built-in oracle 'none'; give", scene.solve, "none")
     raises(wrong, "cannot read none.dag", scene.solve, "none.dag")
+    raises(wrong, "cannot read none.dag", scene.solve, b"none.dag")
+    raises(wrong, "cannot read \ufffd.dag", scene.solve, "\udce4.dag")  # a file's name that is no UTF-8
+    raises(wrong, "has a NUL in it", scene.solve, "power\0.dag")
     raises(wrong, "no parameter 'x'; it has energy", scene.solve, parameters={"x": 1})
+    raises(wrong, "'a' for 'energy'; it must be a number", scene.solve, parameters={"energy": "a"})
+    raises(wrong, "2 for 1; it must be a number for a name", scene.solve, parameters={1: 2})
     raises(TypeError, "from_arrays", radiosity.Scene)
     factors = scene.view_factors()
     near(factors.matrix.toarray(), EXACT, 1e-7)  # as good as before
