@@ -31,9 +31,16 @@ static int resolve_type(struct dag *dag, const char *name, struct where where)
     if (type < 0 && !dag->lost) {
         struct suggestion suggestion = {name, NULL, 0};
         dag_error(dag, where, "unknown type '%s'", name);
-        for (int i = 0; i < dag->type_count && !dag_errors_full(dag); i++)
-            dag_suggest(&suggestion, dag->types[i].name);
+        const char *list = "";
+        for (int i = 0; i < dag->type_count && !dag_errors_full(dag); i++) {
+            const char *one = dag->types[i].name;
+            dag_suggest(&suggestion, one);
+            list = i == 0 ? one : i < 12 ? dag_format(&dag->arena, "%s, %s", list, one) : list;
+        }
         dag_note_suggestion(dag, &suggestion);
+        if (!suggestion.best && dag->type_count > 0)
+            dag_note(dag, dag_nowhere, "the types are: %s%s", list,
+                     dag->type_count > 12 ? ", ..." : "");
     }
     return type;
 }
