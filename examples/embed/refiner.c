@@ -343,6 +343,10 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
 /* of the ray offset: a point this near to a plane lies in it, so that no ray that starts off the
  * one surface starts behind the other; chosen */
 #define REFINER_RAY_FLAT 0.5
+/* cosine. A particle's ray that leaves flatter starts straight above its point, not where the ray
+ * from the surface is off by the offset: so far away something may stand in between. Chosen: one
+ * ray in 256 is flatter */
+#define REFINER_SLIDE_LEAST 0.0625
 /* steps for each face, all together. A million faces are then asked in seconds. Chosen: rooms take
  * up to 10, a ball of 20,000 triangles takes 560: part of a ball so fine counts as in the way */
 #define REFINER_FREE_SPACE_STEPS 256
