@@ -209,16 +209,16 @@ static double believed(const struct dim_faces *d, const struct tally *tally)
 /* ---- how many, and what they say */
 
 /* A few paths of each; half of what is then planned; then all. */
-static int trace_paths(struct dim_faces *d, double budget)
+static int trace_paths(struct dim_faces *d, const struct dim_budget *budget)
 {
     uint64_t before = *d->rays;
-    double first = fmin(budget * FIRST / RAYS_OF_PATH / d->count, LOOK);
+    double first = fmin(budget->paths * FIRST / RAYS_OF_PATH / d->count, LOOK);
     for (uint32_t j = 0; j < d->count; j++)
         d->polygon[j].wanted = first > 1 ? (uint64_t)first : 1;
     for (int part = 2; part >= 0; part--) {
         const double spent = (double)(*d->rays - before);
         if (part < 2)
-            dim_plan(d, fmax(budget - spent, 0), 2 * budget - spent);
+            dim_plan(d, fmax(budget->paths - spent, 0), budget->surer - spent);
         for (uint32_t j = 0; j < d->count && part == 1; j++)
             d->polygon[j].wanted -= (d->polygon[j].wanted - d->polygon[j].paths) / 2;
         if (dim_paths_trace(d) < 0)
@@ -334,15 +334,15 @@ static double trace_rest(struct dim_faces *d, double rays)
     return fmax(rays, 0);
 }
 
-/* Paths by so many rays, and where these leave some unsure split particles by what `both` has left;
- * but these are not asked for fewer rays than mending took: they would know less. */
-static int trace_all(struct dim_faces *d, struct solve *s, double paths, double both,
+/* Paths, and where these leave some unsure split particles; but these are not asked for fewer rays
+ * than mending took: they would know less. */
+static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budget *budget,
                      double mending)
 {
     uint64_t before = *d->rays;
-    if (trace_paths(d, paths) < 0)
+    if (trace_paths(d, budget) < 0)
         return -1;
-    double rays = both - (double)(*d->rays - before);
+    double rays = budget->both - (double)(*d->rays - before);
     if (rays < mending || all_sure(d))
         return 0;
     rays = trace_rest(d, rays);
@@ -411,12 +411,13 @@ static void change(const struct dim_faces *d, double *irradiance)
 }
 
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
+                   enum dim_size size, const struct dim_budget *budget, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count)
 {
     /* so many that each is believed, at the least: dim_belief.c */
-    const uint64_t most =
-        size != DIM_SMALL_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
+    const double most = size != DIM_SMALL_ONES
+                            ? UINT32_MAX
+                            : budget->paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
     struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
     *count = (struct dim_count){0};
     double variance;
@@ -439,9 +440,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        failed = failed
-                 || (d.count > 0
-                     && trace_all(&d, s, (double)paths, (double)both, (double)tally->rays) < 0);
+        failed = failed || (d.count > 0 && trace_all(&d, s, budget, (double)tally->rays) < 0);
     }
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);

@@ -18,19 +18,24 @@ struct dim_count {
     double area; /* of those (m2) */
 };
 
+/* Rays, about, that may be cast at the most. */
+struct dim_budget {
+    double paths; /* for paths; */
+    double surer; /* for these, where more of them make those surer that are known; no fewer */
+    double both;  /* for paths and particles that are split; no fewer than mending took, or none */
+};
+
 /* Irradiances of the mended solution s->mended, which `tally` has mended, are set anew: those of
  * polygons of that size whose reflected light the tally knows to no better than DIM_GOAL, where
  * these are many than one in which none is off by much, by paths from their points, and where these
  * do not know it either by particles that are split; all others by one factor per band, so that the
  * scene receives what it did. Of small ones no more are asked, the largest, than so many rays can
  * tell; but all are counted that are not known, neither by the tally, nor by what mending leaves
- * of their error, nor by paths. Radiosities are the caller's to set. At most about `paths` rays are
- * cast for paths, as many again where that makes those surer that are known, and no more than about
- * `both` where particles are split besides; *rays is raised by them. Without such polygons none.
- * watch: NULL, or asked. *count: what is known then. Returns how many polygons were changed, or -1
- * when out of memory or stopped. */
+ * of their error, nor by paths. Radiosities are the caller's to set. *rays is raised by what is
+ * cast; without such polygons nothing is. watch: NULL, or asked. *count: what is known then.
+ * Returns how many polygons were changed, or -1 when out of memory or stopped. */
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
+                   enum dim_size size, const struct dim_budget *budget, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count);
 
 /* Take those of c, other polygons than *to has, into *to. */

@@ -65,44 +65,51 @@ static int follow_irradiance(struct solve *s)
 
 /* Polygons of a size, and what goes with them. Returns 0, or -1 when out of memory or cancelled. */
 static int mend_polygons(struct solve *s, const struct tracer *t, const struct tally *tally,
-                         enum dim_size size, double paths, double both, const struct watch *watch,
-                         uint64_t *spent, struct dim_count *count)
+                         enum dim_size size, const struct dim_budget *budget,
+                         const struct watch *watch, uint64_t *spent, struct dim_count *count)
 {
-    const int changed =
-        dim_faces_mend(s, t, tally, size, (uint64_t)paths, (uint64_t)both, watch, spent, count);
+    const int changed = dim_faces_mend(s, t, tally, size, budget, watch, spent, count);
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 
+/* So many rays for paths, and as many again where that makes some surer. */
+static struct dim_budget twice(double paths)
+{
+    return (struct dim_budget){.paths = paths, .surer = 2 * paths};
+}
+
 /* Dim polygons, by as many rays as mending would have taken without links (unaided), and what links
- * have spared of these, if large ones want it; they are added to *spent. Returns 0, or -1 when out
- * of memory or cancelled.
+ * have spared of these, if large ones want it, but for what is left of goal->most, or as many as
+ * mending took; they are added to *spent. Returns 0, or -1 when out of memory or cancelled.
  */
 static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
-                    double unaided, struct measured_error *alone, uint64_t *spent)
+                    const struct mending_goal *goal, double unaided, struct measured_error *alone,
+                    uint64_t *spent)
 {
-    double mending = (double)tally->rays, spared = fmax(unaided - mending, 0),
-           paths = DIM_RAYS * (mending + spared) + spared,
-           both = fmax(DIM_FEW - (double)s->report.counts.rays - mending, 0),
-           budget = fmax(paths, both);
+    const double mending = (double)tally->rays, spared = fmax(unaided - mending, 0),
+                 most = fmax((double)goal->most - mending - (double)*spent, mending),
+                 paths = fmin(DIM_RAYS * (mending + spared) + spared, most),
+                 both = fmax(DIM_FEW - (double)s->report.counts.rays - mending, 0);
+    const struct dim_budget large = {paths, fmin(2 * paths, most), both};
+    const double budget = fmax(paths, both);
     struct watched_rays watched = {.solve = s,
                                    .before = tally->rays + *spent,
                                    .now = budget,
                                    .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {watched_rays_tell, &watched};
     struct dim_count groups;
-    if (mend_polygons(s, t, tally, DIM_LARGE_ONES, paths, both, &watch, spent, &alone->dim) < 0)
+    if (mend_polygons(s, t, tally, DIM_LARGE_ONES, &large, &watch, spent, &alone->dim) < 0)
         return -1;
     /* Of groups it is told in any case which are not known. */
     const uint64_t before = *spent;
     const double left = fmin(fmax(DIM_RAYS * mending, DIM_SMALL), both - (double)before);
-    if (mend_polygons(s, t, tally, DIM_GROUPS, DIM_GATHERED * fmax(fmin(left, mending), 0), 0,
-                      &watch, spent, &groups)
-        < 0)
+    const struct dim_budget gathered = twice(DIM_GATHERED * fmax(fmin(left, mending), 0));
+    if (mend_polygons(s, t, tally, DIM_GROUPS, &gathered, &watch, spent, &groups) < 0)
         return -1;
     alone->gathered = groups.large;
     dim_count_add(&alone->dim, &groups);
-    const double rest = fmax(left - (double)(*spent - before), 0);
-    return mend_polygons(s, t, tally, DIM_SMALL_ONES, rest, 0, &watch, spent, &alone->small);
+    const struct dim_budget rest = twice(fmax(left - (double)(*spent - before), 0));
+    return mend_polygons(s, t, tally, DIM_SMALL_ONES, &rest, &watch, spent, &alone->small);
 }
 
 static int mend_by(struct solve *s, const struct tally *tally, double *irradiance)
@@ -138,7 +145,8 @@ static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
         if (mend_by(s, tally, m->irradiance) == 0
             && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_counted(s, tally) == 0
-            && (goal->look || mend_dim(s, t, paths ? paths : tally, unaided, alone, spent) == 0)) {
+            && (goal->look
+                || mend_dim(s, t, paths ? paths : tally, goal, unaided, alone, spent) == 0)) {
             s->reach = reach;
             return 0;
         }

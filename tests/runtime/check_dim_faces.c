@@ -39,8 +39,8 @@ static void add_part(struct scene *s, uint32_t material, const struct face *wall
 }
 
 /* Two boxes whose links are right. light: H in the second, of whose walls all but the first are cut
- * in parts of less than a hundredth of the area. */
-static void two_furnaces(struct solve *s, struct scene *scene, double light, int threads)
+ * in cuts^2 parts; CUTS: each of less than a hundredth of the area. */
+static void furnaces_cut(struct solve *s, struct scene *scene, double light, int cuts, int threads)
 {
     static char *settings[] = {"min_share=0.02", NULL};
     ck_assert_int_eq(made_open(scene), 0);
@@ -49,9 +49,14 @@ static void two_furnaces(struct solve *s, struct scene *scene, double light, int
     const uint32_t walls[6] = {bright, bright, bright, bright, bright, bright};
     made_room(scene, walls, 1, 1, 1);
     for (int i = 0; i < 6; i++)
-        for (int n = i == 0 ? 1 : CUTS, part = 0; part < n * n; part++)
+        for (int n = i == 0 ? 1 : cuts, part = 0; part < n * n; part++)
             add_part(scene, dark, &scene->faces[i], n, part);
     solve_with(s, scene, "bf", RELEASE_FLAT, settings, quick(threads));
+}
+
+static void two_furnaces(struct solve *s, struct scene *scene, double light, int threads)
+{
+    furnaces_cut(s, scene, light, CUTS, threads);
 }
 
 static void spoil(struct solve *s, uint32_t from, uint32_t to, double factor)
@@ -160,7 +165,8 @@ static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint
     ck_assert_int_eq(mend_irradiance(&s->operator, & tally, s->mended.irradiance), 0);
     double before = s->mended.irradiance[0];
     *rays = 0;
-    int changed = dim_faces_mend(s, &t, &tally, DIM_LARGE_ONES, budget, budget, NULL, rays, &dim);
+    const struct dim_budget rays_for = {(double)budget, 2 * (double)budget, (double)budget};
+    int changed = dim_faces_mend(s, &t, &tally, DIM_LARGE_ONES, &rays_for, NULL, rays, &dim);
     ck_assert_uint_ge(dim.large, dim.unsure);
     unsure = dim.unsure;
     *root = s->mended.irradiance[0] / before;
@@ -303,6 +309,25 @@ START_TEST(test_large_budget)
     spoil_wall(&s);
     ck_assert_int_eq(mend_apart(&s, 200000, 2000000, &rays, &root), 1);
     ck_assert_double_eq_tol(of_face(&s, WALL) / DARK, 1, 0.05);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* Where mending has taken all that it may, paths take no more than that again; also where that much
+ * more would make surer what is known. */
+START_TEST(test_budget)
+{
+    const double most = 1.6e6; /* what is left of DIM_FEW may be taken in any case */
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    furnaces_cut(&s, &scene, DARK, 1, 2); /* six dark walls */
+    mend_all(&s, 1e-5, (uint64_t)most, &alone);
+    printf("at most %.0f rays: %.0f in all\n", most, (double)alone.rays);
+    ck_assert_double_gt((double)alone.rays, 1.2 * most);
+    ck_assert_double_lt((double)alone.rays, 2.1 * most);
+    measured_error_free(&alone);
     solve_close(&s);
     made_close(&scene);
 }
@@ -619,6 +644,7 @@ int main(void)
     tcase_add_test(tests, test_weak_lamp);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
+    tcase_add_test(tests, test_budget);
     tcase_add_test(tests, test_small);
     tcase_add_test(tests, test_small_told);
     tcase_add_test(tests, test_dim_places);
