@@ -36,7 +36,8 @@ CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
 LDFLAGS  = $(SANITIZE)
 # Which headers an object was made of.
 DEPEND   = $(if $(findstring tcc,$(CC)),-MD,-MMD -MP)
-EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
+# Whose headers the compiler finds (runtime/util/embree.h), wherever they are: calls of 4 end in a crash with 3.
+EMBREE  := -lembree$(shell printf '\043include <embree4/rtcore.h>\n' | $(CC) $(CPPFLAGS) -E -x c - >/dev/null 2>&1 && echo 4 || echo 3)
 # MPI=1: for runs over several processes (mpirun). Two objects ask: what they were made for stands in a file, so that another
 # answer makes them anew. PETSC=1: for --solver petsc, of which three more know; Debian's is built on Open MPI.
 PETSC      =
@@ -116,6 +117,12 @@ FUZZ_SECONDS = 60
 
 all: packages
 	@$(MAKE) --no-print-directory commands library
+
+# For python/binding.py.
+.PHONY: engine-libraries
+engine-libraries:
+	@echo $(ENGINE_LIBS)
+
 .PHONY: commands library dagc
 commands: $(BUILD)/bin/dagc $(BUILD)/bin/radiosity
 library: $(ARCHIVE) $(BUILD)/libradiosity.so

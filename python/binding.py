@@ -6,6 +6,7 @@ a wrong number. cffi gives up the interpreter's lock during each call.
 SPDX-License-Identifier: MIT
 """
 import os
+import subprocess
 
 from cffi import FFI
 
@@ -115,8 +116,9 @@ extern "Python" int radiosity_state_write(void *, const void *, size_t);
 
 def engine_libraries():
     """What the archive is linked with: ENGINE_LIBS of the Makefile."""
-    embree = "embree4" if os.path.exists("/usr/include/embree4/rtcore.h") else "embree3"
-    return [embree, "pthread", "dl", "m"]
+    compiler = ["CC=" + os.environ["CC"]] if os.environ.get("CC") else []
+    command = ["make", "-s", "--no-print-directory", "BUILD=" + BUILD, *compiler, "engine-libraries"]
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.split()
 
 
 binding = FFI()
@@ -127,5 +129,5 @@ binding.set_source(
     include_dirs=["runtime", os.path.join(BUILD, "gen")],
     extra_objects=[os.path.join(BUILD, "libradiosity.a")],
     depends=["runtime/radiosity.h", os.path.join(BUILD, "libradiosity.a")],
-    libraries=engine_libraries(),
+    extra_link_args=engine_libraries(),
 )

@@ -8,7 +8,8 @@ missing=
 for p in $packages; do
     dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'install ok installed' || missing="$missing $p"
 done
-[ -e /usr/include/embree3/rtcore.h ] || [ -e /usr/include/embree4/rtcore.h ] || missing="$missing libembree-dev"
+embree() { echo "#include <embree$1/rtcore.h>" | cc -E -x c - >/dev/null 2>&1; } # of whichever version, wherever it is
+embree 3 || embree 4 || missing="$missing libembree-dev"
 [ -n "$missing" ] || exit 0
 if [ "$(id -u)" = 0 ]; then
     sudo=

@@ -83,6 +83,12 @@ check "it runs" ./own
 check "the same by the shared library" cc $flags -o shared_own own.c "$build/libradiosity.so" "$build/libdagc.a" -ldl -lm
 check "it runs" env LD_LIBRARY_PATH="$build" sh -c "ln -s '$build/libradiosity.so' \"\$(objdump -p '$build/libradiosity.so' | awk '/SONAME/ { print \$2 }')\"; LD_LIBRARY_PATH=. ./shared_own"
 
+# ---- what it is linked with is what its headers are of, wherever these are
+mkdir -p other/embree4
+: >other/embree4/rtcore.h
+check "Embree 4 is linked where the compiler finds its header" sh -c \
+    "C_INCLUDE_PATH='$tmp/other' make -s --no-print-directory -C '$top' engine-libraries | grep -q -e '-lembree4 '"
+
 # ---- the header by itself
 printf '#include <radiosity.h>\n' >header.c
 for compiler in cc clang; do
