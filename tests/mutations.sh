@@ -18,7 +18,7 @@ bends that hand does not read | tests/hand/power.c | s/{FACT_RECEIVER_BEND};/{FA
 bends seen by nobody | runtime/engine/bends.c | s/in->changed.i. .= (unsigned char)/in->changed[i] += 0 * (unsigned char)/ | runtime/check_bends
 leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#define MEND_LEAVES (256/ | runtime/check_detail
 quarters that say nothing | runtime/engine/mend_solution.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
-dim faces at each look | runtime/engine/mend_solution.c | s/(goal->look /(goal->look < 0 / | solver/check_asked
+dim faces at each look | runtime/engine/mend_solution.c | s/goal->look$/goal->look < 0/ | solver/check_asked
 the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high, m->alone.noise.high)/e->l1_faces.value/ | solver/check_asked
 bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = mean/f->band_noise[k] = 0 * mean/ | solver/check_bands
 parts of two walls | runtime/engine/dim_parts.c | s/p->reach \* e->normal.k - 3.;/0 * e->normal[k - 3];/ | runtime/check_dim_faces
