@@ -110,7 +110,7 @@ END_TEST
 /* A flat closed box: its floor and its lid see each other, whatever the gap. */
 START_TEST(test_flat_box)
 {
-    static const double GAP[] = {1e-4, 2e-5, 1e-5, 5e-6};
+    static const double GAP[] = {1e-4, 2e-5, 1e-5, 5e-6, 2e-6};
     static double f[FACES], area[FACES];
     const double gap = GAP[_i], o[3] = {0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, up[3] = {0, 0, gap},
                  low[2][2] = {{0, 0}, {0, 0}}, high[2][2] = {{1, 1}, {1, 1}};
@@ -134,7 +134,7 @@ int main(void)
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, test_pit, 0, sizeof pit / sizeof *pit);
     tcase_add_loop_test(t, test_hair, 0, under_sanitizers() ? 12 : 60);
-    tcase_add_loop_test(t, test_flat_box, 0, 4);
+    tcase_add_loop_test(t, test_flat_box, 0, 5);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;
 }
