@@ -81,8 +81,8 @@ void tracer_point(const struct tracer *t, uint32_t face, double u, double v, dou
     move_off(t, e, p);
 }
 
-/* Is a point near its plane within the surface? */
-static int lies_within(const struct element *e, const double p[3])
+/* Is a point near its plane within the surface, farther than that from its border? */
+static int lies_within(const struct element *e, const double p[3], double border)
 {
     for (uint32_t i = 0; i < e->vertices; i++) {
         const double *from = e->vertex[i], *to = e->vertex[(i + 1) % e->vertices];
@@ -90,7 +90,7 @@ static int lies_within(const struct element *e, const double p[3])
         sub3(side, to, from);
         sub3(way, p, from);
         cross3(inward, e->normal, side);
-        if (!(dot3(inward, way) > 0))
+        if (!(dot3(inward, way) > border * length3(inward)))
             return 0;
     }
     return 1;
@@ -99,17 +99,19 @@ static int lies_within(const struct element *e, const double p[3])
 /* A ray that leaves straight above its point meets what is near as if it were nearer still, by the
  * offset: between a strip of lamps and a wall a millimetre away, in a hall of twenty metres, a
  * thirteenth of the gap is missing. So it starts farther on, where the ray from the surface itself
- * is off by as much; but not beyond the surface's edge, where a wall may stand. */
-static void slide_along(const struct tracer *t, const struct element *e, double p[3],
+ * is off by as much; but not beyond the surface's border, nor where something stands on it that the
+ * ray might start behind. */
+static void slide_along(const struct tracer *t, uint32_t face, double p[3],
                         const double direction[3], double cosine)
 {
-    const double reach = rays_host(t->rays)->ray_offset / cosine;
+    const struct element *e = tracer_surface(t, face);
+    const double offset = rays_host(t->rays)->ray_offset, reach = offset / cosine;
     double q[3];
-    if (!(cosine > SLIDE_LEAST))
+    if (!(cosine > SLIDE_LEAST) || rays_stood_on(t->rays, face))
         return;
     for (int k = 0; k < 3; k++)
         q[k] = p[k] + reach * (direction[k] - cosine * e->normal[k]);
-    if (lies_within(e, q))
+    if (lies_within(e, p, offset) && lies_within(e, q, offset))
         memcpy(p, q, sizeof q);
 }
 
@@ -127,7 +129,7 @@ int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u
     double angle = 2 * LAMBERT_PI * u, r = sqrt(v), z = sqrt(1 - v), direction[3], distance;
     for (int k = 0; k < 3; k++)
         direction[k] = z * above.n[k] + r * (cos(angle) * above.u[k] + sin(angle) * above.v[k]);
-    slide_along(t, tracer_surface(t, face), p, direction, z);
+    slide_along(t, face, p, direction, z);
     int64_t met = rays_meet(t->rays, p, direction, &distance);
     if (met < 0)
         return met;

@@ -14,6 +14,7 @@
  * take as long, of those with 4 a fifth less; sorted by direction and origin, longer; said to be
  * coherent, longer.
  * SPDX-License-Identifier: MIT */
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "visibility/back_faces.h"
@@ -24,6 +25,7 @@
 #include "util/thread_pool.h"
 #include "kernel/constants.h"
 #include "visibility/rays_within.h"
+#include "visibility/standing.h"
 
 /* The call that casts the last of so many rays is timed, and speaks for all of them: a call's
  * chance is its share of the rays, so that what it took per ray, times TIMED, has the right mean. A
@@ -253,8 +255,9 @@ struct rays *rays_prepare(const struct hierarchy *h, const double *exitance,
     rays->threads = threads;
     rays->hierarchy = h;
     rays->tallies = calloc((size_t)threads, sizeof *rays->tallies);
-    if (!rays->tallies) {
-        free(rays);
+    rays->stood = calloc(h->face_count + (size_t)1, sizeof *rays->stood);
+    if (!rays->tallies || !rays->stood) {
+        rays_close(rays);
         return NULL;
     }
     totals(rays, h, exitance, reflectance);
@@ -339,6 +342,19 @@ uint64_t rays_count_own(const struct rays *rays)
     return own_tally(rays)->rays;
 }
 
+int rays_stood_on(const struct rays *rays, uint32_t face)
+{
+    enum { BARE = 1, STOOD_ON = 2 };
+    const struct hierarchy *h = rays->hierarchy;
+    int stood = atomic_load_explicit(&rays->stood[face], memory_order_relaxed);
+    if (!stood) {
+        stood =
+            standing_within(h, hierarchy_surface(h, face), rays->host.ray_offset) ? STOOD_ON : BARE;
+        atomic_store_explicit(&rays->stood[face], (unsigned char)stood, memory_order_relaxed);
+    }
+    return stood == STOOD_ON;
+}
+
 void rays_close(struct rays *rays)
 {
     if (!rays)
@@ -349,6 +365,7 @@ void rays_close(struct rays *rays)
         rtcReleaseDevice(rays->device);
     free(rays->face);
     free(rays->behind);
+    free((void *)rays->stood);
     free(rays->tallies);
     free(rays);
 }

@@ -71,6 +71,10 @@ static inline void ray_land(double p[3], const double direction[3], double dista
         p[k] -= above * e->normal[k];
 }
 
+/* May something stand on the face (standing_within)? Asked of each once, when it is wanted.
+ * Thread-safe. */
+int rays_stood_on(const struct rays *rays, uint32_t face);
+
 /* Is the segment from + t direction, 0 < t < 1, blocked? Ends stand off their surfaces, as above.
  * Thread-safe; not counted. */
 int rays_blocked(const struct rays *rays, const double from[3], const double direction[3]);

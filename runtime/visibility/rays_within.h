@@ -16,11 +16,12 @@ struct rays {
     const struct hierarchy *hierarchy; /* borrowed */
     RTCDevice device;
     RTCScene scene;
-    double origin[3], scale; /* Embree's coordinates: (x - origin) * scale */
-    double origins[STEP];    /* the origin, again and again */
-    uint32_t *face;          /* by Embree's primitive: its front */
-    uint32_t *behind;        /* by face: what is met from behind (back_faces.h) */
-    struct free_space free;  /* what passes it by needs no ray */
+    double origin[3], scale;      /* Embree's coordinates: (x - origin) * scale */
+    double origins[STEP];         /* the origin, again and again */
+    uint32_t *face;               /* by Embree's primitive: its front */
+    uint32_t *behind;             /* by face: what is met from behind (back_faces.h) */
+    _Atomic unsigned char *stood; /* by face: STOOD_ON (rays.c); 0: not asked yet */
+    struct free_space free;       /* what passes it by needs no ray */
     int threads;
     struct tally *tallies; /* [threads] */
 };

@@ -32,16 +32,15 @@ static void add_plane(struct prism *p, const double on[3], const double normal[3
     p->planes++;
 }
 
-/* From `off` above e to as far as STANDING_GAP tells. */
-static struct prism prism_over(const struct element *e, double off)
+/* From `low` to `height` above e. */
+static struct prism prism_over(const struct element *e, double low, double height)
 {
     struct prism p = {.face = e->face,
                       .low = {INFINITY, INFINITY, INFINITY},
                       .high = {-INFINITY, -INFINITY, -INFINITY}};
-    const double height = off + STANDING_GAP * e->radius;
     double foot[3], top[3];
     for (int k = 0; k < 3; k++) {
-        foot[k] = e->vertex[0][k] + off * e->normal[k];
+        foot[k] = e->vertex[0][k] + low * e->normal[k];
         top[k] = e->vertex[0][k] + height * e->normal[k];
     }
     add_plane(&p, foot, e->normal, -1);
@@ -104,6 +103,12 @@ static int reaches_in(const struct hierarchy *h, const struct prism *p, double o
 
 int standing_may(const struct hierarchy *h, const struct element *e, double off)
 {
-    const struct prism p = prism_over(e, off);
+    const struct prism p = prism_over(e, off, off + STANDING_GAP * e->radius);
     return reaches_in(h, &p, off, 0);
+}
+
+int standing_within(const struct hierarchy *h, const struct element *e, double off)
+{
+    const struct prism p = prism_over(e, 0.5 * off, 2 * off);
+    return reaches_in(h, &p, 0.25 * off, 0);
 }

@@ -10,4 +10,8 @@
  * far from e points are asked, and what rounding may do. Thread-safe. */
 int standing_may(const struct hierarchy *h, const struct element *e, double off);
 
+/* 0: nothing reaches into the lowest 2 off above what of e is farther than off from its border:
+ * what is nearer there than off to e, along it, is on the same side of all faces. Thread-safe. */
+int standing_within(const struct hierarchy *h, const struct element *e, double off);
+
 #endif
