@@ -34,7 +34,7 @@ int hand_apart(const struct element *r, const struct element *s, const struct ho
     double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1],
            z = s->centre[2] - r->centre[2];
     double reach = sqrt(x * x + y * y + z * z) + r->radius + s->radius;
-    double flat = host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    const double flat = host->flat;
     return turned_away(r, s, x, y, z, reach, flat) || turned_away(s, r, -x, -y, -z, reach, flat);
 }
 
