@@ -38,7 +38,6 @@ all faces are parts of one polygon | runtime/hierarchy/overlaps.c | s/of.n->chil
 boxes stay out | runtime/visibility/standing.c | s/if (low >= 0)/if (low >= -1)/ | runtime/check_contact
 packets look for no fronts | runtime/visibility/ray_hits.c | s/fronts_there(rays, &query, backs)/fronts_there(rays, \&query, 0)/ | runtime/check_contact
 slides past what stands | runtime/visibility/rays.c | s/return stood == STOOD_ON;/return stood < 0;/ | runtime/check_dark_sides
-slides over borders | runtime/particles/tracer.c | s/lies_within(e, q, offset))/lies_within(e, p, offset))/ | runtime/check_dark_sides runtime/check_reference
 shafts of empty rooms | runtime/visibility/rays.c | s/return free_space_is_all(&rays->free)$/return 0/ | runtime/check_bends
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
 groups pay nothing | runtime/engine/row_sums.c | s/if (rows.sum > most \* rows.area)/if (0 \&\& rows.sum > most * rows.area)/ | runtime/check_transport
