@@ -876,9 +876,11 @@ RAD_API int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlac
  * (engine/detail.c): what radGetElements gave before is no longer valid. The mean of polygons above
  * a hundredth of the area that too few particles meet is told by paths from them, too, and where
  * these do not know it either by particles that are split where light is dim: by at most as many
- * rays besides, and by what is left of 1.5 million in all; smaller polygons by paths, as far as
- * some of these are left (engine/dim_faces.c). Where paths from polygons tell them for less than
- * half of the rays, they mend in place of particles, and measure (engine/path_mending.c).
+ * rays besides as mending would have taken without links, and as many again where that makes surer
+ * what is known, within the most that mending may take; and by what is left of 1.5 million in all.
+ * Smaller polygons are told by paths, as far as some of these are left (engine/dim_faces.c). Where
+ * paths from polygons tell them for less than half of the rays, they mend in place of particles,
+ * and measure (engine/path_mending.c).
  * *alone, which may be NULL: the error of the links alone, by the same particles or paths; its rays
  * are what mending took. NULL options: the defaults. Returns 0, or -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,

@@ -244,18 +244,17 @@ static int answer_of(const struct dag *dag, const struct callee *tool, const cha
 static int unknown_answer(struct dag *dag, const struct callee *tool, const struct label *label)
 {
     struct suggestion suggestion = {label->name, NULL, 0};
-    const char *list = "";
+    struct name_list answers = {"", 0};
     dag_error(dag, label->where, "%s never answers '%s'", tool->name, label->name);
     if (dag_errors_full(dag))
         return -1;
     for (int i = 0; i < tool->answers.count; i++) {
         const char *name = dag->answers[tool->answers.first + i].name;
         dag_suggest(&suggestion, name);
-        list = i == 0 ? name : i < 12 ? dag_format(&dag->arena, "%s, %s", list, name) : list;
+        dag_list_name(dag, &answers, name);
     }
     dag_note_suggestion(dag, &suggestion);
-    dag_note(dag, dag_nowhere, "its answers are: %s%s", list,
-             tool->answers.count > 12 ? ", ..." : "");
+    dag_note_names(dag, "its answers", &answers);
     return suggestion.best == NULL ? -1 : answer_of(dag, tool, suggestion.best);
 }
 

@@ -11,6 +11,15 @@ struct scope {
     struct table nodes, parameters, exits;
 };
 
+/* The names that there are, for who wrote another: the first twelve. {"", 0} at first. */
+struct name_list {
+    const char *text;
+    int count;
+};
+
+void dag_list_name(struct dag *dag, struct name_list *list, const char *name);
+void dag_note_names(struct dag *dag, const char *what, const struct name_list *list);
+
 void dag_resolve_expression(struct dag *dag, const struct scope *scope, int expression);
 void dag_resolve_answers(struct dag *dag, struct span answers, const char *what);
 void dag_resolve_twice(struct dag *dag, const char *what, const char *name, struct where where,

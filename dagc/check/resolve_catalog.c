@@ -14,6 +14,21 @@ void dag_resolve_twice(struct dag *dag, const char *what, const char *name, stru
     dag_note(dag, first, "the first is here");
 }
 
+enum { NAMES_LISTED = 12 };
+
+void dag_list_name(struct dag *dag, struct name_list *list, const char *name)
+{
+    if (list->count < NAMES_LISTED)
+        list->text = list->count == 0 ? name : dag_format(&dag->arena, "%s, %s", list->text, name);
+    list->count++;
+}
+
+void dag_note_names(struct dag *dag, const char *what, const struct name_list *list)
+{
+    dag_note(dag, dag_nowhere, "%s are: %s%s", what, list->text,
+             list->count > NAMES_LISTED ? ", ..." : "");
+}
+
 /* Declares the new items of one kind, `name` and `where` being its first two fields. */
 #define DECLARE(dag, table, list, count, what) \
     for (int i = (dag)->resolved.list; i < (dag)->count; i++) { \
@@ -30,17 +45,15 @@ static int resolve_type(struct dag *dag, const char *name, struct where where)
     int type = dag_find(&dag->type_names, name);
     if (type < 0 && !dag->lost) {
         struct suggestion suggestion = {name, NULL, 0};
+        struct name_list types = {"", 0};
         dag_error(dag, where, "unknown type '%s'", name);
-        const char *list = "";
         for (int i = 0; i < dag->type_count && !dag_errors_full(dag); i++) {
-            const char *one = dag->types[i].name;
-            dag_suggest(&suggestion, one);
-            list = i == 0 ? one : i < 12 ? dag_format(&dag->arena, "%s, %s", list, one) : list;
+            dag_suggest(&suggestion, dag->types[i].name);
+            dag_list_name(dag, &types, dag->types[i].name);
         }
         dag_note_suggestion(dag, &suggestion);
-        if (!suggestion.best && dag->type_count > 0)
-            dag_note(dag, dag_nowhere, "the types are: %s%s", list,
-                     dag->type_count > 12 ? ", ..." : "");
+        if (!suggestion.best && types.count > 0)
+            dag_note_names(dag, "the types", &types);
     }
     return type;
 }

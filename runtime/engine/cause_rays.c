@@ -69,9 +69,7 @@ static double share_of(const struct tracer *t, uint32_t face, const double p[3],
                        const struct element *emitter, const double y[3], double chance)
 {
     static const struct path_rays each = {1, 1};
-    double on[3];
-    tracer_on_surface(t, face, p, on);
-    double by_cosine = lambert_points(on, tracer_surface(t, face)->normal, y, emitter->normal, 0);
+    double by_cosine = tracer_density(t, face, p, y, emitter->normal);
     return by_cosine > 0 ? path_share(&each, by_cosine, chance / emitter->area) : 0;
 }
 
@@ -86,10 +84,9 @@ static void look_for_light(const struct cause_rays *c, const struct link_cover *
     if (!(chance > 0))
         return;
     const struct element *emitter = tracer_surface(t, face);
-    double y[3], way[3], distance;
-    tracer_point(t, face, u[1], u[2], y);
-    for (int d = 0; d < 3; d++)
-        y[d] -= rays_host(t->rays)->ray_offset * emitter->normal[d];
+    double above[3], y[3], way[3], distance;
+    tracer_point(t, face, u[1], u[2], above);
+    tracer_on_surface(t, face, above, y);
     double share = share_of(t, at->face, p, emitter, y, chance);
     sub3(way, y, p);
     /* not whether something is between: of two faces in one place the other kind of ray meets one

@@ -279,9 +279,9 @@ static uint32_t stays_on(const struct loss *losses, size_t count, const struct l
     return x->on;
 }
 
-enum { LOST = 1, LOST_TOLD = 2, LOST_ROUND = 4 };
+enum { LOST = 1, LOST_ROUND = 2 };
 
-/* Tell of the losses. lost[]: of polygons that have any what has been told of them. One that lies
+/* Tell of the losses. lost[]: of polygons that have any which have been told of them. One that lies
  * on itself has an outline that goes round a place more than once. */
 static void tell(struct scene *s, const struct loss *losses, size_t count, uint8_t *lost)
 {
@@ -292,14 +292,14 @@ static void tell(struct scene *s, const struct loss *losses, size_t count, uint8
         if (on == polygon) {
             if (!(told & LOST_ROUND) && (!s->crossing++ || polygon < s->crossing_first))
                 s->crossing_first = polygon;
-            lost[polygon] |= LOST | LOST_ROUND;
+            lost[polygon] |= LOST_ROUND;
             continue;
         }
-        if (!(told & LOST_TOLD) && s->overlaps < RAD_OVERLAPS_NAMED)
+        if (!(told & LOST) && s->overlaps < RAD_OVERLAPS_NAMED)
             s->overlap[s->overlaps] = (struct RadOverlap){polygon, on};
-        s->overlaps += !(told & LOST_TOLD);
+        s->overlaps += !(told & LOST);
         s->overlap_area += losses[i].area;
-        lost[polygon] |= LOST | LOST_TOLD;
+        lost[polygon] |= LOST;
     }
 }
 

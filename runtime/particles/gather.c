@@ -176,7 +176,7 @@ static void to_light(const struct gather *g, const struct fan *fan, const double
 {
     const struct element *elements = g->tracer->hierarchy->elements;
     const double *n = tracer_surface(g->tracer, fan->face)->normal;
-    double y[3], to[3], way[3], on[3], weight[4];
+    double y[3], to[3], way[3], weight[4];
     uint32_t piece;
     double chance = light_tree_choose(&g->tree, fan->p, n, u[0], &piece);
     if (!(chance > 0))
@@ -184,8 +184,7 @@ static void to_light(const struct gather *g, const struct fan *fan, const double
     uint32_t element = g->lights.face_element[piece];
     const struct element *e = &elements[element];
     surface_even_point(y, e, u[1], u[2]);
-    tracer_on_surface(g->tracer, fan->face, fan->p, on);
-    double by_cosine = lambert_points(on, n, y, e->normal, 0);
+    double by_cosine = tracer_density(g->tracer, fan->face, fan->p, y, e->normal);
     if (!(by_cosine > 0))
         return;
     for (int k = 0; k < 3; k++)
@@ -202,7 +201,7 @@ static void onward(const struct gather *g, const struct fan *fan, double u, doub
 {
     const struct hierarchy *hierarchy = g->tracer->hierarchy;
     const double *n = tracer_surface(g->tracer, fan->face)->normal;
-    double q[3] = {fan->p[0], fan->p[1], fan->p[2]}, at[3], on[3], weight[4];
+    double q[3] = {fan->p[0], fan->p[1], fan->p[2]}, at[3], weight[4];
     int64_t met = tracer_step(g->tracer, fan->face, q, u, v, at);
     if (met < 0)
         return;
@@ -211,8 +210,7 @@ static void onward(const struct gather *g, const struct fan *fan, double u, doub
     double share = 1 / fan->rays.cosine;
     if (piece != NO_PIECE && fan->rays.light > 0) {
         const struct element *e = &hierarchy->elements[g->lights.face_element[piece]];
-        tracer_on_surface(g->tracer, fan->face, fan->p, on);
-        double by_cosine = lambert_points(on, n, at, e->normal, 0);
+        double by_cosine = tracer_density(g->tracer, fan->face, fan->p, at, e->normal);
         share = by_cosine > 0 ? path_share(&fan->rays, by_cosine,
                                            light_tree_chance(&g->tree, fan->p, n, piece) / e->area)
                               : 0;

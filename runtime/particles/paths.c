@@ -21,18 +21,16 @@ static void add_exitance(const struct tracer *t, uint32_t emitter, double by_cos
 int path_to_light(const struct tracer *t, uint32_t face, const double p[3], const double u[3],
                   const struct path_rays *rays, double *h)
 {
-    const double *n = tracer_surface(t, face)->normal, offset = rays_host(t->rays)->ray_offset;
-    double q[3], y[3], way[3], on[3];
+    const double *n = tracer_surface(t, face)->normal;
+    double q[3], y[3], way[3];
     uint32_t emitter;
     double chance = light_tree_choose(&t->light_tree, p, n, u[0], &emitter);
     if (!(chance > 0))
         return 0;
     const struct element *e = tracer_surface(t, emitter);
     tracer_point(t, emitter, u[1], u[2], q);
-    for (int k = 0; k < 3; k++)
-        y[k] = q[k] - offset * e->normal[k]; /* where directions meet it */
-    tracer_on_surface(t, face, p, on);
-    double by_cosine = lambert_points(on, n, y, e->normal, 0);
+    tracer_on_surface(t, emitter, q, y);
+    double by_cosine = tracer_density(t, face, p, y, e->normal);
     if (!(by_cosine > 0))
         return 0;
     sub3(way, q, p);
@@ -45,13 +43,11 @@ int64_t path_onward(const struct tracer *t, uint32_t face, double p[3], double u
                     const struct path_rays *rays, double *h, double at[3])
 {
     const double from[3] = {p[0], p[1], p[2]}, *n = tracer_surface(t, face)->normal;
-    double on[3];
-    tracer_on_surface(t, face, p, on);
     int64_t met = tracer_step(t, face, p, u, v, at);
     if (met < 0 || t->light_tree.place[met] == UINT32_MAX)
         return met;
     const struct element *e = tracer_surface(t, (uint32_t)met);
-    double by_cosine = lambert_points(on, n, at, e->normal, 0);
+    double by_cosine = tracer_density(t, face, from, at, e->normal);
     if (by_cosine > 0)
         add_exitance(t, (uint32_t)met, by_cosine,
                      light_tree_chance(&t->light_tree, from, n, (uint32_t)met) / e->area, rays, h);

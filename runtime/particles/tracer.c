@@ -81,16 +81,18 @@ void tracer_point(const struct tracer *t, uint32_t face, double u, double v, dou
     move_off(t, e, p);
 }
 
-/* Is a point near its plane within the surface, farther than that from its border? */
-static int lies_within(const struct element *e, const double p[3], double border)
+/* Are two points near its plane within the surface, farther than that from its border? */
+static int lie_within(const struct element *e, const double p[3], const double q[3], double border)
 {
     for (uint32_t i = 0; i < e->vertices; i++) {
         const double *from = e->vertex[i], *to = e->vertex[(i + 1) % e->vertices];
-        double side[3], way[3], inward[3];
+        double side[3], to_p[3], to_q[3], inward[3];
         sub3(side, to, from);
-        sub3(way, p, from);
+        sub3(to_p, p, from);
+        sub3(to_q, q, from);
         cross3(inward, e->normal, side);
-        if (!(dot3(inward, way) > border * length3(inward)))
+        const double least = border * length3(inward);
+        if (!(dot3(inward, to_p) > least && dot3(inward, to_q) > least))
             return 0;
     }
     return 1;
@@ -111,7 +113,7 @@ static void slide_along(const struct tracer *t, uint32_t face, double p[3],
         return;
     for (int k = 0; k < 3; k++)
         q[k] = p[k] + reach * (direction[k] - cosine * e->normal[k]);
-    if (lies_within(e, p, offset) && lies_within(e, q, offset))
+    if (lie_within(e, p, q, offset))
         memcpy(p, q, sizeof q);
 }
 
@@ -120,6 +122,14 @@ void tracer_on_surface(const struct tracer *t, uint32_t face, const double p[3],
     const struct element *e = tracer_surface(t, face);
     for (int k = 0; k < 3; k++)
         on[k] = p[k] - rays_host(t->rays)->ray_offset * e->normal[k];
+}
+
+double tracer_density(const struct tracer *t, uint32_t face, const double p[3], const double y[3],
+                      const double normal[3])
+{
+    double on[3];
+    tracer_on_surface(t, face, p, on);
+    return lambert_points(on, tracer_surface(t, face)->normal, y, normal, 0);
 }
 
 int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u, double v,

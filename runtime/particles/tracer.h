@@ -96,9 +96,14 @@ double tracer_reflectance(const struct tracer *t, uint32_t face);
 /* A point spread evenly over the face by (u, v) in [0, 1)^2, just in front of it. */
 void tracer_point(const struct tracer *t, uint32_t face, double u, double v, double p[3]);
 
-/* The point of the face that p is just in front of: directions that tracer_step takes start there.
- */
+/* The point of the face that p is just in front of: directions that tracer_step takes start there,
+ * and end in such points. */
 void tracer_on_surface(const struct tracer *t, uint32_t face, const double p[3], double on[3]);
+
+/* How probable it is that tracer_step goes from p to y, which has that normal and lies in its plane
+ * (1/m2), if nothing is in the way. */
+double tracer_density(const struct tracer *t, uint32_t face, const double p[3], const double y[3],
+                      const double normal[3]);
 
 static inline const struct element *tracer_surface(const struct tracer *t, uint32_t face)
 {

@@ -109,6 +109,7 @@ int standing_may(const struct hierarchy *h, const struct element *e, double off)
 
 int standing_within(const struct hierarchy *h, const struct element *e, double off)
 {
+    /* what may be there by rounding, a quarter of off, lies below or at the border */
     const struct prism p = prism_over(e, 0.5 * off, 2 * off);
     return reaches_in(h, &p, 0.25 * off, 0);
 }
