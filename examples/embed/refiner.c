@@ -392,6 +392,8 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
 #define REFINER_SOLVE_STALLED 64
 /* 2^-23, relative. What single precision resolves */
 #define REFINER_SOLVE_SINGLE 1.2e-7
+/* the same of double precision, of sums of thousands: 2^6 of its steps of 2^-52 */
+#define REFINER_SOLVE_DOUBLE 1.4e-14
 /* of what constants on leaves leave (engine/variation.c): so much iteration may leave beside it.
  * chosen: a tenth is little beside the whole */
 #define REFINER_SOLVE_SHARE 0.1

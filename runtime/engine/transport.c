@@ -28,9 +28,10 @@
  *
  * Where Gauss-Seidel's sweeps are slow the limit is guessed from time to time (extrapolation.h).
  *
- * How far down. What groups send is summed in single precision, so a change too small to see may
- * turn a last digit, and that change turn it back a sweep later: for ever, at a bound that falls no
- * more. Sweeps end then, if the bound is no more than single precision is worth.
+ * How far down. A change too small to see may turn a last digit, and that change turn it back a
+ * sweep later: for ever, at a bound that falls no more. Sweeps end then, if the change is no more
+ * than double precision is worth; or the bound no more than single precision, in which what groups
+ * send is summed.
  *
  * To which tolerance. Constants on leaves have an error that no sweep takes away; a tenth of it is
  * little beside it (variation.c), and where nobody asks for another tolerance that is the one.
@@ -152,14 +153,16 @@ static double left_of(const struct light_operator *op, struct transport *x, doub
     return x->bound / x->held;
 }
 
-/* Does the bound fall no more, for last digits of what groups send? *least: its least so far;
- * *since: sweeps since then. */
+/* Does the bound fall no more, for last digits? *least: its least so far; *since: sweeps since
+ * then. */
 static int stalled(const struct light_operator *op, const struct transport *x, double *least,
                    int *since)
 {
     *since = x->bound < *least ? 0 : *since + 1;
     *least = fmin(x->bound, *least);
-    return *since >= SOLVE_STALLED && x->bound <= SOLVE_SINGLE && op->separable.count > 0;
+    return *since >= SOLVE_STALLED
+           && (x->residual <= SOLVE_DOUBLE
+               || (x->bound <= SOLVE_SINGLE && op->separable.count > 0));
 }
 
 /* Sweeps, between which Southwell's method shoots. */

@@ -291,6 +291,8 @@
 #define SOLVE_STALLED 64
 /* 2^-23, relative. What single precision resolves */
 #define SOLVE_SINGLE 1.2e-7
+/* the same of double precision, of sums of thousands: 2^6 of its steps of 2^-52 */
+#define SOLVE_DOUBLE 1.4e-14
 /* of what constants on leaves leave (engine/variation.c): so much iteration may leave beside it.
  * chosen: a tenth is little beside the whole */
 #define SOLVE_SHARE 0.1

@@ -261,6 +261,23 @@ static void compare_solvers(const struct test_case *t, struct solve *s,
     }
 }
 
+/* A tolerance below what doubles resolve ends where they do, not after all sweeps that are allowed.
+ */
+static void below_rounding(const struct test_case *t, struct solve *s,
+                           const struct transport *known)
+{
+    for (int i = 0; i < SOLVERS && radHasSolver((enum RadSolver)i); i++) {
+        struct transport x = fresh(s, 1e-19);
+        s->problem.options.solver = (enum RadSolver)i;
+        ck_assert_int_eq(transport_solve(&s->operator, & x), 0);
+        printf("    %-12s %3d sweeps to 1e-19, bound %.1e\n", solver_names[i], x.sweeps, x.bound);
+        ck_assert_int_eq(x.converged, 1);
+        ck_assert_int_lt(x.sweeps, 20000);
+        ck_assert_double_le(apart(s, &x, known), t->agree);
+        discard(&x);
+    }
+}
+
 /* Shots alone, from B = E with all of it unshot, and no sweep, come as near as they are asked to;
  * and with sweeps so does Southwell's method from another light, where shots take away as well. */
 static void try_shots(const struct test_case *t, struct solve *s, const struct transport *known)
@@ -337,6 +354,7 @@ START_TEST(test_solvers)
     struct transport known = fresh(&s, 0);
     ck_assert_int_eq(dense_solve(&s.operator, & known), 0);
     compare_solvers(t, &s, &known);
+    below_rounding(t, &s, &known);
     try_shots(t, &s, &known);
     cut_short(t, &s, &known);
     discard(&known);
