@@ -309,7 +309,8 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     const struct sweep s = {op, l, x, m->bands};
     struct change *change = malloc(op->hierarchy->face_count * sizeof *change);
     double *room = malloc((shares_room(&op->shares) * 3 * m->bands + 1) * sizeof *room);
-    double rho = 0, least = INFINITY;
+    struct stall stall = {.since = 0};
+    double rho = 0;
     int stopped = 0, grows = 0;
     const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI;
     const size_t values = (size_t)op->hierarchy->count * m->bands;
@@ -329,10 +330,10 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
         sweep(&s, change, room);
         measure(&s, change, rho);
         m->sweeps++;
-        m->converged = m->bound <= m->tolerance;
-        least = fmin(least, m->bound);
+        m->converged = transport_stalled(op, m, &stall) || m->bound <= m->tolerance;
         stopped = m->watch && m->watch(m->watch_context, m);
-        grows = !l->limited && !(m->bound <= LINEAR_GROWS * least);
+        grows = !l->limited && !(m->residual <= SOLVE_DOUBLE)
+                && !(m->bound <= LINEAR_GROWS * stall.least);
         const double factor = jacobi ? 0 : extrapolation_factor(&guess, m->moved);
         if (factor > 0 && !m->converged) {
             extrapolation_add(&guess, GUESS_MEANS, factor, m->value, values);

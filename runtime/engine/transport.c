@@ -153,14 +153,13 @@ static double left_of(const struct light_operator *op, struct transport *x, doub
     return x->bound / x->held;
 }
 
-/* Does the bound fall no more, for last digits? *least: its least so far; *since: sweeps since
- * then. */
-static int stalled(const struct light_operator *op, const struct transport *x, double *least,
-                   int *since)
+int transport_stalled(const struct light_operator *op, const struct transport *x,
+                      struct stall *stall)
 {
-    *since = x->bound < *least ? 0 : *since + 1;
-    *least = fmin(x->bound, *least);
-    return *since >= SOLVE_STALLED
+    stall->since = stall->since && x->bound >= stall->least ? stall->since + 1 : 1;
+    if (stall->since == 1)
+        stall->least = x->bound;
+    return stall->since > SOLVE_STALLED
            && (x->residual <= SOLVE_DOUBLE
                || (x->bound <= SOLVE_SINGLE && op->separable.count > 0));
 }
@@ -174,8 +173,8 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     const double rho = reflects(op, x);
     const size_t values = (size_t)op->hierarchy->count * x->bands;
     struct extrapolation guess = {.steady = 0};
-    double least = INFINITY;
-    int since = 0, stopped = 0;
+    struct stall stall = {.since = 0};
+    int stopped = 0;
     while (x->sweeps < most && !x->converged && !stopped) {
         if (shooter)
             southwell_keep(shooter, op, x);
@@ -185,7 +184,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
         measure(op, x, change);
         x->sweeps++;
         double left = left_of(op, x, rho);
-        x->converged = left <= 1 || (!x->rough && stalled(op, x, &least, &since));
+        x->converged = left <= 1 || (!x->rough && transport_stalled(op, x, &stall));
         stopped = x->watch && x->watch(x->watch_context, x);
         const double factor = jacobi ? 0 : extrapolation_factor(&guess, x->moved);
         if (factor > 0 && !x->converged) {

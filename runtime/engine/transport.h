@@ -20,7 +20,7 @@ struct transport {
      * (variation.h), within SOLVE_TOLERANCE and SOLVE_TOLERANCE_MOST */
     double tolerance;
     /* 1: an estimate of what it leaves will do; 0: the bound must be within the tolerance, or as
-     * low as single precision lets it be (transport.c) */
+     * low as precision lets it be (transport.c) */
     int rough;
     /* after each sweep; NULL: none; nonzero stops */
     int (*watch)(void *context, const struct transport *x);
@@ -48,6 +48,16 @@ int transport_solve(const struct light_operator *op, struct transport *x);
  * other ranks have is right where links of this one take light from, if it was before. */
 void transport_sweep(const struct light_operator *op, const struct transport *x, int jacobi,
                      struct change *change, double *room);
+
+/* How long a bound has not fallen; since = 0 at first. */
+struct stall {
+    double least; /* of all sweeps */
+    int since;    /* sweeps, the one with the least counted */
+};
+
+/* After each sweep: does the bound fall no more, for last digits (transport.c)? */
+int transport_stalled(const struct light_operator *op, const struct transport *x,
+                      struct stall *stall);
 
 /* Means of the clusters in value and irradiance, whose surfaces have theirs. */
 void transport_average(const struct light_operator *op, struct transport *x);

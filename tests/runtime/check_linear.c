@@ -773,6 +773,27 @@ START_TEST(test_room)
 }
 END_TEST
 
+/* A tolerance below what doubles resolve ends where they do, and for that no link is limited. */
+START_TEST(test_last_digits)
+{
+    struct scene scene;
+    struct solve s, rough;
+    struct solve_options how = with_basis(1, 1);
+    furnished(&scene, 1);
+    solve_with(&rough, &scene, "bf_guarded", RELEASE_FLAT, NULL, how);
+    how.tolerance = 1e-19;
+    solve_with(&s, &scene, "bf_guarded", RELEASE_FLAT, NULL, how);
+    printf("%d sweeps to 1e-19, %llu links limited, %llu before\n", s.linear.sweeps,
+           (unsigned long long)s.linear.limited, (unsigned long long)rough.linear.limited);
+    ck_assert_int_eq(s.report.converged, 1);
+    ck_assert_int_lt(s.linear.sweeps, 1000);
+    ck_assert_uint_eq(s.linear.limited, rough.linear.limited);
+    solve_close(&s);
+    solve_close(&rough);
+    made_close(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("linear");
@@ -792,6 +813,7 @@ int main(void)
     tcase_add_test(solutions, test_limited);
     tcase_add_test(solutions, test_too_bright);
     tcase_add_test(solutions, test_room);
+    tcase_add_test(solutions, test_last_digits);
     tcase_set_timeout(solutions, 120);
     suite_add_tcase(suite, bases);
     suite_add_tcase(suite, couplings);
