@@ -20,8 +20,9 @@
  *         there; its share of all reflected light
  *     missed    share of the area that no leaf was found on, which no error is known of
  *
- * The error of a cell is that of its mean light; a solution has it from POINTS^2 points. A
- * two-sided face's is the mean over both sides, as tables have it.
+ * The error of a cell is that of its mean light; a solution has it from POINTS^2 points, or, of a
+ * face that is one cell, from FACES.csv: light may fall off along a lamp that touches it within
+ * less than points are apart. A two-sided face's is the mean over both sides, as tables have it.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
@@ -126,6 +127,14 @@ static void add_squares(struct squares *q, double area, double error, double var
     q->light += area * light * light;
 }
 
+/* Is it all of its polygon? Cells of one stand together. */
+static int is_whole(const struct cells *cells, uint32_t i)
+{
+    const struct cell *c = &cells->cell[i];
+    return (i == 0 || c[-1].polygon != c->polygon)
+           && (i + 1 == cells->count || c[1].polygon != c->polygon);
+}
+
 /* Returns whether there is a value. */
 static int solution_at(const struct inputs *in, uint32_t i, double value[3])
 {
@@ -136,7 +145,11 @@ static int solution_at(const struct inputs *in, uint32_t i, double value[3])
         return 1;
     }
     int two_sided = in->file.materials[in->file.polygon_materials[c->polygon]].two_sided;
-    return c->corners && cell_value(&in->mesh, c, two_sided, value) == 0;
+    if (!c->corners || cell_value(&in->mesh, c, two_sided, value) < 0)
+        return 0;
+    if (is_whole(&in->cells, i))
+        memcpy(value, in->solution.radiosity + (size_t)c->polygon * bands, bands * sizeof *value);
+    return 1;
 }
 
 static void add_cells(const struct inputs *in, struct sums *s, struct total *totals)

@@ -107,6 +107,12 @@ check "noise of faces" near noise_faces "$(awk 'BEGIN { print 6 * .01 / 13 * sqr
 check "no place without a leaf" near missed 0 1e-9
 check "the reference, by faces" sh -c "'$cell_error' faces '$furnace' ref.csv 1e-3 >by_face && [ \$(wc -l <by_face) = 7 ] && grep -q '^0,1,2.2,' by_face"
 
+# A face that is one cell has the light that the table of faces says, whatever points of the mesh do.
+awk 'BEGIN { print "face,area,B_0,se_0"; for (i = 0; i < 6; i++) print i ",1,2,0.01" }' >ref_whole.csv
+awk -F , -v OFS=, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "B_0") at = i } NR == 2 { $at += 0.2 } { print }' faces.csv >whole.csv
+check "compared, by whole faces" sh -c "'$cell_error' compare '$furnace' ref_whole.csv whole.csv mesh.ply 1 >errors"
+check "cells of whole faces" near l1_cells "$(echo 0.2 6 | awk '{ print $1 / $2 }')" 3e-3
+
 # Cells of quads and triangles tile them.
 check "cornell is cut" "$cell_error" cut "$top/examples/scenes/cornell.obj" cornell 1e-3
 area() { # of an OBJ file, by the diagonals of quads and the edges of triangles
