@@ -61,6 +61,9 @@ all colours are one | runtime/engine/lights_reach.c | s/(answers(p, white\[j\], 
 one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - left)/ | runtime/check_dim_faces
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)paths_for(d, p, goal);/(void)goal;/ | runtime/check_dim_faces
+split particles tell of dim faces alone | runtime/engine/dim_faces.c | s/^ *.. mend_again(.*$/        ;/ | runtime/check_dim_faces
+who mended before knew nothing | runtime/engine/mend_clusters.c | s/fmax(least, x->best/fmax(0 * least, x->best/ | runtime/check_dim_faces
+paths change light that ends there | runtime/engine/dim_faces.c | s/p->reflects.band. ? dim_mean/1 ? dim_mean/ | runtime/check_dim_faces
 weak lamps are gathered in a few | runtime/particles/particles.c | s/f.least = fmin(tally->least, tally->carried.light.)/f.least = tally->least/ | runtime/check_dim_faces
 tiles are as dim as they are small | runtime/engine/dim_faces.c | s/p->told = doubt_of(d, faces.doubt, p) <= DIM_GOAL/p->told = doubt_of(d, faces.doubt, p) < 0/ | runtime/check_dim_faces
 small faces that no ray asks are known | runtime/engine/dim_faces.c | s/if (p->asked .. p->told)/if (p->asked < 2)/ | runtime/check_dim_faces

@@ -30,6 +30,10 @@
  * polygon. For them particles are split (dim_split.c); and where these say otherwise than paths by
  * more than the noise of both, paths are thought to be off by that much.
  *
+ * Split particles come from the emitters, through all that is bright, where they are as good as
+ * any. Of a light guide that a dim room surrounds they are seven times as many as those that
+ * mended, and what they counted on all faces and leaves mends these again.
+ *
  * Below the polygon all elements keep their shares, and the power of the whole scene, which
  * particles know best, stays: what is added here all the others give in proportion.
  *
@@ -337,8 +341,9 @@ static double trace_rest(struct dim_faces *d, double rays)
 /* Paths, and where these leave some unsure split particles; but these are not asked for fewer rays
  * than mending took: they would know less. */
 static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budget *budget,
-                     double mending)
+                     const struct tally *tally)
 {
+    const double mending = (double)tally->rays;
     uint64_t before = *d->rays;
     if (trace_paths(d, budget) < 0)
         return -1;
@@ -354,9 +359,13 @@ static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budg
     if (!window)
         return -1;
     set_windows(d, window);
-    int status = dim_split_trace(d, window, rays, all_sure);
+    struct tally split;
+    const int failed =
+        dim_split_trace(d, window, rays, all_sure, &split) < 0
+        || mend_again(&s->operator, & split, tally, s->state.irradiance, s->mended.irradiance) < 0;
+    tally_close(&split);
     free(window);
-    return status;
+    return failed ? -1 : 0;
 }
 
 /* ---- what becomes of the solution */
@@ -366,6 +375,21 @@ static double power_of(const struct dim_faces *d, uint32_t element, uint32_t ban
 {
     return d->tracer->hierarchy->elements[element].area
            * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
+}
+
+static void find_given(const struct dim_faces *d, struct dim_polygon *p)
+{
+    for (uint32_t k = 0; k < d->tracer->bands; k++) {
+        p->given[k] = 0;
+        for (uint32_t i = p->from; i < p->to; i++)
+            p->given[k] += power_of(d, d->tracer->hierarchy->face_element[d->face[i]], k) / p->area;
+    }
+}
+
+/* What it is to have; of light that it does not reflect, what it has. */
+static double mean_of(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
+{
+    return p->reflects[band] ? dim_mean(d, p, band) : p->given[band];
 }
 
 struct changing {
@@ -382,11 +406,11 @@ static void change_element(const void *changing, uint32_t e)
     for (uint32_t k = 0; k < d->tracer->bands; k++) {
         double *H = &x->irradiance[(size_t)e * d->tracer->bands + k], sum = 0;
         if (at->vertices) {
-            double mean = p ? dim_mean(d, p, k) : 0;
-            if (p && !(p->mended[k] > 0))
+            double mean = p ? mean_of(d, p, k) : 0;
+            if (p && !(p->given[k] > 0))
                 *H = mean; /* nothing is known of how it is spread */
             else
-                *H *= p ? mean / p->mended[k] : x->others[k];
+                *H *= p ? mean / p->given[k] : x->others[k];
             continue;
         }
         for (uint32_t c = 0; c < at->children; c++)
@@ -399,11 +423,13 @@ static void change_element(const void *changing, uint32_t e)
 static void change(const struct dim_faces *d, double *irradiance)
 {
     struct changing x = {.d = d, .irradiance = irradiance};
+    for (uint32_t j = 0; j < d->count; j++)
+        find_given(d, &d->polygon[j]);
     for (uint32_t k = 0; k < d->tracer->bands; k++) {
         double before = 0, after = 0, whole = power_of(d, 0, k);
         for (uint32_t j = 0; j < d->count; j++) {
-            before += d->polygon[j].mended[k] * d->polygon[j].area;
-            after += dim_mean(d, &d->polygon[j], k) * d->polygon[j].area;
+            before += d->polygon[j].given[k] * d->polygon[j].area;
+            after += mean_of(d, &d->polygon[j], k) * d->polygon[j].area;
         }
         x.others[k] = before < whole ? fmax(whole - after, 0) / (whole - before) : 1;
     }
@@ -440,7 +466,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        failed = failed || (d.count > 0 && trace_all(&d, s, budget, (double)tally->rays) < 0);
+        failed = failed || (d.count > 0 && trace_all(&d, s, budget, tally) < 0);
     }
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);

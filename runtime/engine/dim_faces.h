@@ -28,12 +28,13 @@ struct dim_budget {
 /* Irradiances of the mended solution s->mended, which `tally` has mended, are set anew: those of
  * polygons of that size whose reflected light the tally knows to no better than DIM_GOAL, where
  * these are many than one in which none is off by much, by paths from their points, and where these
- * do not know it either by particles that are split; all others by one factor per band, so that the
- * scene receives what it did. Of small ones no more are asked, the largest, than so many rays can
- * tell; but all are counted that are not known, neither by the tally, nor by what mending leaves
- * of their error, nor by paths. Radiosities are the caller's to set. *rays is raised by what is
- * cast; without such polygons nothing is. watch: NULL, or asked. *count: what is known then.
- * Returns how many polygons were changed, or -1 when out of memory or stopped. */
+ * do not know it either by particles that are split; all others by what these say of them, if there
+ * are any, and by one factor per band, so that the scene receives what it did. Of small ones no
+ * more are asked, the largest, than so many rays can tell; but all are counted that are not known,
+ * neither by the tally, nor by what mending leaves of their error, nor by paths. Radiosities are
+ * the caller's to set. *rays is raised by what is cast; without such polygons nothing is. watch:
+ * NULL, or asked. *count: what is known then. Returns how many polygons were changed, or -1 when
+ * out of memory or stopped. */
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                    enum dim_size size, const struct dim_budget *budget, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count);

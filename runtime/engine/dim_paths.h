@@ -18,6 +18,7 @@ struct dim_polygon {
     double light;      /* what it reflects once mended, mean over it, all bands (W/m2) */
     double variance;   /* s^2 of that */
     double mended[3];  /* mean irradiance once mended (W/m2) */
+    double given[3];   /* the same in the solution as it is, by split particles as well */
     int reflects[3];   /* bands: does any of its faces? */
     int asked;         /* 1: may be asked by paths; 0: there are too many */
     int told;          /* 1: known by what mending leaves of its error */

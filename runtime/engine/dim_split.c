@@ -52,28 +52,26 @@ static int tell(void *context, double share)
 }
 
 int dim_split_trace(struct dim_faces *d, const float *window, double rays,
-                    int (*sure)(const struct dim_faces *d))
+                    int (*sure)(const struct dim_faces *d), struct tally *split)
 {
-    struct tally split;
     struct stretch stretch = {.watch = d->watch};
     const struct watch watch = {tell, &stretch};
     double more = START;
     int times = 0; /* in succession that all were sure */
-    int failed = tally_open(&split, d->tracer, DIM_STREAM, 1) < 0
-                 || tally_split(&split, d->tracer, window, DIM_LEAST, rays) < 0;
+    int failed = tally_open(split, d->tracer, DIM_STREAM, 1) < 0
+                 || tally_split(split, d->tracer, window, DIM_LEAST, rays) < 0;
     while (!failed && more >= 1) {
-        failed = tally_trace(&split, d->tracer, (uint64_t)more, d->watch ? &watch : NULL) < 0;
-        note(d, &split);
-        double each = (double)split.rays / (double)split.particles;
-        more = fmin((rays - (double)split.rays) / each, (double)split.particles);
+        failed = tally_trace(split, d->tracer, (uint64_t)more, d->watch ? &watch : NULL) < 0;
+        note(d, split);
+        double each = (double)split->rays / (double)split->particles;
+        more = fmin((rays - (double)split->rays) / each, (double)split->particles);
         /* once may be by chance: of so few replicates one in ten tells noise a quarter too small */
         times = sure(d) ? times + 1 : 0;
         if (times == 2)
             break;
         stretch.from = stretch.to;
-        stretch.to = ((double)split.rays + more * each) / rays;
+        stretch.to = ((double)split->rays + more * each) / rays;
     }
-    *d->rays += split.rays;
-    tally_close(&split);
+    *d->rays += split->rays;
     return failed ? -1 : 0;
 }

@@ -57,7 +57,8 @@ struct note {
 
 struct mending {
     struct mend_sums sums;
-    double *irradiance; /* [element * bands + band]: by links, then mended (W/m2) */
+    const struct tally *before; /* that has mended already; NULL: none */
+    double *irradiance;         /* [element * bands + band]: by links, then mended (W/m2) */
     struct levels levels;
     /* of the level that is mended now: elements that have children; what each adds to the sums */
     const uint32_t *parent;
@@ -155,6 +156,19 @@ static double believed(const struct sight *own, const struct sight *class, doubl
     return seen > own->noise ? 1 - own->noise / seen : 0;
 }
 
+/* The most that is believed of what is counted: that of the best mixture with what others, whose
+ * noise it has once mended, have counted. Particles that carry less than others are thought to be
+ * as noisy as those that carry most. Of paths leaves have no counts. */
+static double most_believed(const struct mending *m, uint32_t band)
+{
+    const struct tally *now = m->sums.tally, *before = m->before;
+    if (!before || before->by_paths)
+        return 1;
+    const double noise = tally_power_of_one(now) * now->square[band],
+                 others = tally_power_of_one(before) * before->square[band];
+    return others > 0 ? others / (others + noise) : 0;
+}
+
 /* The shares of the children of e, before any particle below it is looked at. */
 static void foretold_shares(const struct mending *m, uint32_t e, uint32_t k,
                             double given[MEND_CHILDREN])
@@ -233,7 +247,8 @@ static void share_out(const struct mending *m, uint32_t e, uint32_t k)
     foretold_shares(m, e, k, given);
     if (counted > 0) {
         struct sight own = see(m, e, k, given);
-        belief = believed(&own, &m->class[mend_class(&m->sums, e, k)], above_noise(m, e, k));
+        belief = fmin(most_believed(m, k),
+                      believed(&own, &m->class[mend_class(&m->sums, e, k)], above_noise(m, e, k)));
     }
     for (uint32_t c = 0; c < at->children; c++) {
         uint32_t j = at->child + c;
@@ -352,10 +367,19 @@ static int open_levels(struct levels *l, const struct light_operator *op)
 
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance)
 {
-    struct mending m = {.irradiance = irradiance};
+    return mend_again(op, tally, NULL, NULL, irradiance);
+}
+
+int mend_again(const struct light_operator *op, const struct tally *tally,
+               const struct tally *before, const double *links, double *irradiance)
+{
+    struct mending m = {.before = before, .irradiance = irradiance};
+    struct mend_sums sums = {.op = op};
     int failed = open_levels(&m.levels, op) < 0
                  || mend_sums_open(&m.sums, op, tally, MEND_LEAVES, irradiance) < 0
-                 || mend_clusters(&m.sums, irradiance, NULL, NULL) < 0;
+                 || (before && mend_sums_open(&sums, op, before, MEND_FACES, links) < 0)
+                 || mend_clusters(&m.sums, before ? &sums : NULL, irradiance, NULL, NULL) < 0;
+    mend_sums_close(&sums);
     if (!failed) {
         m.kin = malloc(((size_t)m.sums.places.count + 1) * sizeof *m.kin);
         m.note = malloc(((size_t)widest(&m.levels) * m.sums.bands + 1) * sizeof *m.note);
@@ -381,7 +405,7 @@ int mend_faces(const struct light_operator *op, const struct tally *tally, const
     if (ranks_any(op->shares.ranks, !faces->irradiance || !faces->doubt))
         return -1;
     const int failed = mend_sums_open(&sums, op, tally, MEND_FACES, light) < 0
-                       || mend_clusters(&sums, faces->irradiance, faces->doubt, risk) < 0;
+                       || mend_clusters(&sums, NULL, faces->irradiance, faces->doubt, risk) < 0;
     mend_sums_close(&sums);
     return failed ? -1 : 0;
 }

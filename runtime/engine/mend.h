@@ -12,6 +12,12 @@
  * leaves. Returns 0, or -1 when out of memory. */
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance);
 
+/* The same of irradiances that other particles, which tallied `before`, have made of those of
+ * links; NULL, NULL: none did. The tallies are independent, and each is believed as far as it is
+ * surer. What the scene receives stays. `before` needs no counts of leaves. Returns as above. */
+int mend_again(const struct light_operator *op, const struct tally *tally,
+               const struct tally *before, const double *links, double *irradiance);
+
 /* The same of clusters and faces as wholes: [built * bands], of this rank's. doubt:
  * mend_clusters.h.
  */

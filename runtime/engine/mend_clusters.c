@@ -25,6 +25,12 @@
  * sum is off more than the scene would be is taken from faces by how noisy what was counted there
  * is: of all ways to bring a sum to what is known of it the likeliest.
  *
+ * Where other particles have mended already, what stands for links is off by what that leaves, a
+ * square r^2, by the same estimate. The best mixture of what is as uncertain as that and of a count
+ * believes r^2 / (r^2 + s^2) of the difference, and so much is believed at the most: a class of few
+ * clusters that are far better known than by those who are counted now may by chance look worse.
+ * What the scene receives, and reflects, the first know best: they are not split.
+ *
  * [Stein 1981, the unbiased estimate of that error; Donoho and Johnstone 1995, a threshold by it;
  * Breiman 1995 and Gao 1998, this h, the garrote]
  * SPDX-License-Identifier: MIT */
@@ -49,6 +55,7 @@ enum { NOTHING = -1 };
 struct note {
     int class; /* NOTHING: none landed there */
     double seen, replicates, noise, chance;
+    double before; /* what those who have mended already leave; INFINITY: none, or none landed */
 };
 
 /* Sums over a class: of s^2 by replicates and by chance; */
@@ -93,7 +100,7 @@ static struct note note_of(const struct mend_sums *m, uint32_t e, uint32_t k)
     const double whole = m->received[mend_at(m, e, k)],
                  few = FACE_ERROR_FEW * tally_power_of_one(m->tally);
     double given[MEND_CHILDREN];
-    struct note note = {NOTHING, 0, 0, 0, 0};
+    struct note note = {NOTHING, 0, 0, 0, 0, INFINITY};
     if (!(whole > 0))
         return note;
     note.class = mend_class(m, e, k);
@@ -194,7 +201,8 @@ static double doubted(const struct clusters *x, const struct note *note)
 {
     if (note->class == NOTHING || !(note->seen > 0))
         return 1;
-    return fmin(1, x->best[note->class] * noise_in(x, note) / note->seen);
+    const double noise = noise_in(x, note), least = noise > 0 ? noise / (noise + note->before) : 0;
+    return fmin(1, fmax(least, x->best[note->class] * noise / note->seen));
 }
 
 /* Share out what e receives, mended by now, among its children. */
@@ -332,29 +340,52 @@ static int clusters_open(struct clusters *x)
     return ranks_any(m->op->shares.ranks, !x->parent || !x->note) ? -1 : 0;
 }
 
-int mend_clusters(const struct mend_sums *m, double *irradiance, double *doubt,
-                  struct mended_risk *risk)
+/* What is told of clusters by counts, and by them all. Returns 0 or -1, alike. */
+static int find_clusters(struct clusters *x)
+{
+    if (clusters_open(x) < 0)
+        return -1;
+    thread_pool_run(x->sums->op->problem->options.threads, x->count, RUN, note_some, x);
+    sum_noise(x);
+    choose_thresholds(x);
+    return 0;
+}
+
+static void clusters_close(struct clusters *x)
+{
+    free(x->parent);
+    free(x->note);
+}
+
+/* What others have left of each cluster's error. Returns 0 or -1, alike. */
+static int find_before(struct clusters *x, const struct mend_sums *before)
+{
+    struct clusters b = {.sums = before};
+    const int failed = find_clusters(&b) < 0;
+    for (size_t i = 0; i < (size_t)x->count * x->sums->bands && !failed; i++)
+        if (b.note[i].class != NOTHING)
+            x->note[i].before = b.left[b.note[i].class] * noise_in(&b, &b.note[i]);
+    clusters_close(&b);
+    return failed ? -1 : 0;
+}
+
+int mend_clusters(const struct mend_sums *m, const struct mend_sums *before, double *irradiance,
+                  double *doubt, struct mended_risk *risk)
 {
     struct clusters x = {.sums = m};
-    int failed = clusters_open(&x) < 0;
-    if (!failed) {
-        thread_pool_run(m->op->problem->options.threads, x.count, RUN, note_some, &x);
-        sum_noise(&x);
-        choose_thresholds(&x);
-    }
+    int failed = find_clusters(&x) < 0 || (before && find_before(&x, before) < 0);
     for (uint32_t k = 0; k < m->bands && !failed; k++) {
         if (doubt)
             doubt[k] = 0;
-        if (mend_is_here(&m->places, 0))
+        if (!before && mend_is_here(&m->places, 0))
             mend_scene(m, k, irradiance);
     }
     for (size_t i = 0; i < x.count && !failed; i++) /* they get light from those before them */
         for (uint32_t k = 0; k < m->bands; k++)
             share_out(&x, x.parent[i], k, &x.note[i * m->bands + k], irradiance, doubt);
     failed = failed || (risk && find_risk(&x, irradiance, risk) < 0);
-    if (!failed)
+    if (!failed && !before)
         settle_sum(m, irradiance);
-    free(x.parent);
-    free(x.note);
+    clusters_close(&x);
     return failed ? -1 : 0;
 }

@@ -42,6 +42,8 @@ int tally_split(struct tally *tally, const struct tracer *t, const float *window
     }
     for (uint32_t i = 0; i < l->count; i++)
         tally->carried[i] *= all;
+    for (uint32_t k = 0; k < tally->bands; k++)
+        tally->square[k] = fmax(all, 1);
     tally->one = ALL_SPLIT / (fmax(rays, 1) * fmax(all, 1)); /* none carries more than `all` */
     return 0;
 }
@@ -112,7 +114,7 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
         for (uint32_t k = 0; k < tally->bands; k++) {
             w[k] = (int64_t)(l->share[k] * tally->one + 0.5);
             batch->first[k] += w[k];
-            if (!tally->window) /* of split ones replicates tell the noise */
+            if (!tally->window) /* of split ones the most is known */
                 batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
         }
         if (here[i])
@@ -375,7 +377,7 @@ int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t parti
         thread_pool_run(t->threads, mine, 1, trace_batches, &all);
     add_sums(t->ranks, &sums);
     tally->rays += sums.rays;
-    for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
+    for (uint32_t k = 0; k < tally->bands && !tally->window; k++) /* as any call, but for chance */
         tally->square[k] = sums.first[k] > 0 ? (double)sums.second[k] / (double)sums.first[k] : 0;
     return failed || loop.stopped ? -1 : 0;
 }

@@ -146,10 +146,10 @@ END_TEST
 
 static uint32_t unsure; /* as the last of mend_apart said */
 
-/* Mend by `particles`, then dim polygons by `budget` rays. Returns what the latter returned; *root:
- * by what factor the whole scene's light has changed. */
-static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint64_t *rays,
-                      double *root)
+/* Mend by `particles`, then dim polygons within the budget. Returns what the latter returned;
+ * *root: by what factor the whole scene's light has changed. */
+static int mend_within(struct solve *s, uint64_t particles, const struct dim_budget *budget,
+                       uint64_t *rays, double *root)
 {
     struct dim_count dim;
     size_t size = s->hierarchy.count * sizeof(double);
@@ -165,14 +165,20 @@ static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint
     ck_assert_int_eq(mend_irradiance(&s->operator, & tally, s->mended.irradiance), 0);
     double before = s->mended.irradiance[0];
     *rays = 0;
-    const struct dim_budget rays_for = {(double)budget, 2 * (double)budget, (double)budget};
-    int changed = dim_faces_mend(s, &t, &tally, DIM_LARGE_ONES, &rays_for, NULL, rays, &dim);
+    int changed = dim_faces_mend(s, &t, &tally, DIM_LARGE_ONES, budget, NULL, rays, &dim);
     ck_assert_uint_ge(dim.large, dim.unsure);
     unsure = dim.unsure;
     *root = s->mended.irradiance[0] / before;
     tally_close(&tally);
     tracer_close(&t);
     return changed;
+}
+
+static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint64_t *rays,
+                      double *root)
+{
+    const struct dim_budget all = {(double)budget, 2 * (double)budget, (double)budget};
+    return mend_within(s, particles, &all, rays, root);
 }
 
 /* Same bits by any number of threads; no power is made or lost; the budget is kept, but for whole
@@ -479,6 +485,124 @@ START_TEST(test_dim_places)
 }
 END_TEST
 
+/* L1 error of the bright walls, leaf by leaf, a share of their light; *leaves: how many. */
+static double bright_error(const struct solve *s, uint32_t *leaves)
+{
+    const struct hierarchy *h = &s->hierarchy;
+    double off = 0, area = 0;
+    *leaves = 0;
+    for (uint32_t e = 0; e < h->count; e++) {
+        const struct element *at = &h->elements[e];
+        if (!at->vertices || at->children || at->face >= WALL)
+            continue;
+        off += fabs(s->mended.irradiance[e] - 1) * at->area;
+        area += at->area;
+        ++*leaves;
+    }
+    return off / area;
+}
+
+/* Split particles come through what is bright, and tell of it, too: what a few have left there,
+ * where links know nothing of how light is shared, is less than half as much then. The lamp of
+ * the dark box hangs low over its floor, where paths from other walls seldom find it. */
+START_TEST(test_split_tells_of_bright)
+{
+    enum { FEW = 8000, MANY = 200000 };
+    static char *settings[] = {"min_share=0.005", NULL};
+    static const struct dim_budget none = {0, 0, 0}, split = {1000, 1000, MANY};
+    double off[2], root;
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct solve s;
+        uint64_t rays;
+        uint32_t leaves;
+        made_open(&scene);
+        const uint32_t bright = made_material(&scene, RHO, 1 - RHO),
+                       dark = made_material(&scene, RHO, 0), lamp = made_material(&scene, 0, 0.1);
+        const uint32_t walls[6] = {bright, bright, bright, bright, bright, bright};
+        made_room(&scene, walls, 1, 1, 1);
+        for (int wall = 0; wall < 6; wall++)
+            add_part(&scene, dark, &scene.faces[wall], 1, 0);
+        made_quad(&scene, lamp, 5.4, 0.4, 0.01, 0, 0.2, 0, 0.2, 0, 0); /* turned down */
+        solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, quick(2));
+        for (uint32_t e = 0; e < s.hierarchy.count; e++)
+            if (s.hierarchy.elements[e].vertices && s.hierarchy.elements[e].face < WALL) {
+                s.state.irradiance[e] *= e % 2 ? 1.3 : 0.7;
+                s.state.radiosity[e] = 1 - RHO + RHO * s.state.irradiance[e];
+            }
+        ck_assert_int_ge(mend_within(&s, FEW, i ? &split : &none, &rays, &root), 0);
+        off[i] = bright_error(&s, &leaves);
+        printf("%u leaves off by %.4f: %u rays for dim walls\n", (unsigned)leaves, off[i],
+               (unsigned)rays);
+        ck_assert_uint_ge(leaves, 24);
+        ck_assert(i == 0 || rays > MANY / 2);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    ck_assert_double_lt(off[1], 0.5 * off[0]);
+}
+END_TEST
+
+/* Sum of moduli of what the bright walls lack of their light, over that. */
+static double walls_off(const struct solve *s, const double *irradiance)
+{
+    double off = 0;
+    for (uint32_t f = 0; f < WALL; f++)
+        off += fabs(irradiance[s->hierarchy.face_element[f]] - 1) / WALL;
+    return off;
+}
+
+static void count_some(struct tally *tally, const struct tracer *t, uint64_t stream,
+                       uint64_t particles)
+{
+    ck_assert_int_eq(tally_open(tally, t, stream, 1), 0);
+    ck_assert_int_eq(tally_trace(tally, t, particles / REPLICATES, NULL), 0);
+}
+
+/* Few that count anew leave what many have mended as it is: of twenty draws in the mean. Without
+ * knowing of the many, a cluster alone in its class would often be believed what it got by chance.
+ */
+START_TEST(test_again)
+{
+    enum { FEW = 4000, MANY = 400000, DRAWS = 20 };
+    struct scene scene;
+    struct solve s;
+    struct tally many, few;
+    two_furnaces(&s, &scene, DARK, 2);
+    for (uint32_t e = 0; e < s.hierarchy.count; e++) /* links are off from wall to wall */
+        if (s.hierarchy.elements[e].vertices && s.hierarchy.elements[e].face < WALL)
+            s.state.irradiance[e] *= s.hierarchy.elements[e].face % 2 ? 1.2 : 0.8;
+    const size_t size = s.hierarchy.count * sizeof(double);
+    double *mended = malloc(size), *again = malloc(size), off[3] = {0, 0, 0};
+    struct tracer t = solve_tracer(&s);
+    ck_assert_int_eq(tracer_open(&t), 0);
+    for (uint64_t i = 0; i < DRAWS; i++) {
+        count_some(&many, &t, 2 * i, MANY);
+        count_some(&few, &t, 2 * i + 1, FEW);
+        memcpy(mended, s.state.irradiance, size);
+        ck_assert_int_eq(mend_irradiance(&s.operator, & many, mended), 0);
+        off[0] += walls_off(&s, mended) / DRAWS;
+        memcpy(again, mended, size);
+        ck_assert_int_eq(mend_irradiance(&s.operator, & few, again), 0);
+        off[1] += walls_off(&s, again) / DRAWS;
+        memcpy(again, mended, size);
+        ck_assert_int_eq(mend_again(&s.operator, & few, &many, s.state.irradiance, again), 0);
+        off[2] += walls_off(&s, again) / DRAWS;
+        ck_assert_double_eq_tol(again[0], mended[0], 1e-12);
+        tally_close(&many);
+        tally_close(&few);
+    }
+    printf("many leave %.5f; few, again, %.5f, knowing of the many %.5f\n", off[0], off[1], off[2]);
+    ck_assert_double_gt(off[1], 1.5 * off[0]);
+    ck_assert_double_lt(off[2], 1.1 * off[0]);
+    free(mended);
+    free(again);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Where every large face is met by particles enough, nothing is asked and nothing paid. */
 START_TEST(test_bright)
 {
@@ -642,6 +766,8 @@ int main(void)
     tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_split_weak_lamp);
     tcase_add_test(tests, test_weak_lamp);
+    tcase_add_test(tests, test_split_tells_of_bright);
+    tcase_add_test(tests, test_again);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
     tcase_add_test(tests, test_budget);
