@@ -60,9 +60,11 @@ static int out_of_memory(struct scene_error *error)
                 "out of memory; use a smaller scene or a larger machine");
 }
 
-/* Materials that no polygon has may be anything. */
+/* Materials that no polygon has may be anything. A weak lamp may be as weak as it is; where all
+ * are, squares of powers, which noise is measured by, would be lost. */
 static int check_materials(const struct builder *b)
 {
+    double brightest = 0;
     for (uint32_t i = 0; i < b->scene->material_count; i++) {
         const struct RadMaterial *m = &b->scene->materials[i];
         for (int k = 0; k < 3 && b->used[i]; k++) {
@@ -75,8 +77,14 @@ static int check_materials(const struct builder *b)
                             "material %u has exitance %g W/m2; it must be 0 or more and finite, "
                             "3.4e38 at most",
                             (unsigned)i, m->exitance[k]);
+            brightest = fmax(brightest, m->exitance[k]);
         }
     }
+    if (brightest > 0 && brightest < (double)FLT_MIN)
+        return fail(b->error, RAD_ERROR_INVALID_SCENE,
+                    "the brightest exitance is %g W/m2, too little to compute with; it must be "
+                    "1.2e-38 or more, or 0 everywhere",
+                    brightest);
     return 0;
 }
 

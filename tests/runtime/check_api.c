@@ -1030,6 +1030,10 @@ START_TEST(test_bad_scenes)
     m = grey(0.5, 1e308); /* whose radiosity is beyond all numbers */
     expect_bad_scene(device, &p, &m,
                      "exitance 1e+308 W/m2; it must be 0 or more and finite, 3.4e38");
+    m = grey(0.5, 1e-200); /* squares of whose powers are 0 */
+    expect_bad_scene(device, &p, &m,
+                     "the brightest exitance is 1e-200 W/m2, too little to compute with; it must "
+                     "be 1.2e-38 or more, or 0 everywhere");
     expect_bad_scene(device,
                      &(struct RadPolygons){.positions = corners,
                                            .position_count = 8,
