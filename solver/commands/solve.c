@@ -44,7 +44,8 @@ static int write_pictures(const struct options *o, const struct solution *soluti
 static int write_solution(const struct options *o, const struct surfaces *surfaces,
                           RadDevice device, RadSolution solved, int measured)
 {
-    const struct solution solution = solution_of(surfaces, solved, o->threads);
+    struct solution solution = solution_of(surfaces, solved, o->threads);
+    solution.quiet = o->quiet;
     int failed = 0;
     if (o->out || o->image || o->image_error) {
         struct vertex_values values;

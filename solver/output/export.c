@@ -137,6 +137,18 @@ static int write_format(const char *path, enum export_format format, const struc
     return report_error(path, 0, "unknown format; name it .ply, .gltf, .glb, .obj or .xdmf");
 }
 
+/* An OBJ has floats, and no node that could be moved. */
+static void warn_far_away(const char *path, const struct vertex_values *v)
+{
+    double middle[3];
+    const double moved = far_away(v, middle);
+    if (moved > 0)
+        report_warning(path, 0,
+                       "single precision moves corners by up to %.2g m, so far from the origin "
+                       "they are; write .ply, .glb or .xdmf",
+                       moved);
+}
+
 int export_write(const char *path, const struct solution *s, const struct vertex_values *v,
                  const double *error)
 {
@@ -155,6 +167,8 @@ int export_write(const char *path, const struct solution *s, const struct vertex
             for (size_t k = 0; k < 3; k++)
                 colour[3 * (size_t)i + k] = (float)c[k];
         }
+        if (export_format(path) == EXPORT_OBJ && !s->quiet)
+            warn_far_away(path, v);
         result = write_format(path, export_format(path), &s->surfaces, &mesh, v, colour);
     }
     leaf_mesh_free(&mesh);

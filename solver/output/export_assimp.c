@@ -302,15 +302,8 @@ int export_assimp(const char *path, const char *id, const struct surfaces *surfa
         return -1;
     const int obj = strcmp(id, "obj") == 0;
     double origin[3];
-    const double moved = far_away(values, origin);
-    if (obj && moved > 0) {
-        report_warning(
-            path, 0,
-            "single precision moves corners by up to %.2g m, so far from the origin they "
-            "are; write .ply, .glb or .xdmf",
-            moved);
+    if (far_away(values, origin) > 0 && obj)
         memset(origin, 0, sizeof origin);
-    }
     struct written_scene *w = calloc(1, sizeof *w);
     struct written_files *files = calloc(1, sizeof *files);
     int result = -1;

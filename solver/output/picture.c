@@ -182,10 +182,50 @@ static size_t read_meter(const struct picture *p, const struct raster *r, const 
     return count;
 }
 
+/* Whether any sample sees a face. */
+static int sees_any(const struct raster *r, const uint32_t *face)
+{
+    const size_t all = (size_t)r->width * (size_t)r->height;
+    size_t i = 0;
+    while (i < all && face[i] == NO_FACE)
+        i++;
+    return i < all;
+}
+
+static void warn_empty(const struct picture *p)
+{
+    const struct surfaces *s = &p->solution->surfaces;
+    const double *eye = p->view.eye;
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < s->face_count; i++)
+        for (uint32_t j = 0; j < s->faces[i].vertices; j++)
+            for (int k = 0; k < 3; k++) {
+                low[k] = fmin(low[k], s->faces[i].vertex[j][k]);
+                high[k] = fmax(high[k], s->faces[i].vertex[j][k]);
+            }
+    report_warning(p->path, 0,
+                   "no face shows its front to the eye at %.9g,%.9g,%.9g, so the picture is "
+                   "empty; the scene reaches from %.9g,%.9g,%.9g to %.9g,%.9g,%.9g: give another "
+                   "--view",
+                   eye[0], eye[1], eye[2], low[0], low[1], low[2], high[0], high[1], high[2]);
+}
+
+/* Where a coarse picture sees nothing the picture itself is asked, as small things fall between
+ * coarse samples; without the memory for that nothing is said. */
+static void warn_unseen(const struct picture *p)
+{
+    struct samples samples;
+    struct raster r;
+    if (rasterize(p, p->width, p->height, &r, &samples) == 0 && !sees_any(&r, samples.face))
+        warn_empty(p);
+    raster_end(&r);
+    samples_close(&samples);
+}
+
 /* Expose for what a coarse picture shows: what is lit by the scene, or the lamps if that is all. */
 static int measure(struct picture *p)
 {
-    int w = (p->width + METER - 1) / METER, h = (p->height + METER - 1) / METER;
+    int w = (p->width + METER - 1) / METER, h = (p->height + METER - 1) / METER, any = 0;
     size_t count = 0;
     struct meter_sample *meter = malloc((size_t)w * (size_t)h * sizeof *meter);
     struct samples samples;
@@ -193,11 +233,15 @@ static int measure(struct picture *p)
     const int failed = rasterize(p, w, h, &r, &samples) < 0 || !meter;
     for (int lamps = 0; lamps < 2 && !failed && !count; lamps++)
         count = read_meter(p, &r, samples.face, lamps, meter);
-    if (!failed)
+    if (!failed) {
         p->exposure = exposure_measure(meter, count);
+        any = sees_any(&r, samples.face);
+    }
     raster_end(&r);
     free(meter);
     samples_close(&samples);
+    if (!failed && !any && !p->solution->quiet)
+        warn_unseen(p);
     return failed ? -1 : 0;
 }
 

@@ -29,6 +29,7 @@ struct solution {
     struct surfaces surfaces;
     struct RadElements tree;
     int threads; /* that may draw it; 0 is 1 */
+    int quiet;   /* 1: no warnings about files that are written of it */
 };
 
 /* Materials of polygons and names of materials are the scene file's, which the library does not

@@ -375,6 +375,21 @@ count=$((count + 1))
     [ ! -s err ] && [ ! -s out ] || failed "--image-error"
 rm -f out err i.png e.png
 
+# ---- a camera that sees no face leaves a picture of nothing, and that is said
+count=$((count + 1))
+"$radiosity" solve "$scene" --no-errors --image i.png --view 9,9,9:10,10,10 --size 6x4 >out 2>err && [ -s i.png ] && [ "$(wc -l <err)" = 1 ] &&
+    grep -q '^i.png: warning: no face shows its front to the eye at 9,9,9, so the picture is empty; the scene reaches from 0,0,0 to 1,1,1: give another --view' err &&
+    "$radiosity" solve "$scene" -q --image i.png --view 9,9,9:10,10,10 --size 6x4 2>err && [ ! -s err ] &&
+    "$radiosity" solve "$scene" --no-errors --image i.png --view 9,9,9:1,1,1:1 --size 1x1 >out 2>err && [ ! -s err ] || failed "an empty picture"
+rm -f out err i.png
+
+# ---- an OBJ in coordinates of a map loses decimetres, and that is said, but not where -q is
+count=$((count + 1))
+sed 's/^v 0/v 5000000/; s/^v 1/v 5000001/' "$scene" >far.obj && cp "${scene%.obj}.mtl" . &&
+    "$radiosity" solve far.obj --no-errors -o moved.obj >out 2>err && grep -q '^moved.obj: warning: single precision moves corners by up to 0\.[0-9]* m' err &&
+    "$radiosity" solve far.obj -q -o moved.obj 2>err && [ ! -s err ] || failed "-q and an OBJ far away"
+rm -f out err far.obj moved.* furnace.mtl
+
 # ---- a scene without a lamp is dark, and that is said
 sed 's/^Ke .*/Ke 0 0 0/' "${scene%.obj}.mtl" >furnace.mtl && cp "$scene" dark.obj
 count=$((count + 1))
