@@ -173,6 +173,20 @@ def _column(name, value, count, rows):
     return np.broadcast_to(given, (count, 3)).astype(float)
 
 
+def _sides(two_sided, count, rows):
+    """A column of 0 and 1. Numbers of sides, 1 and 2, would all be true, and so would NaN."""
+    given = np.asarray(two_sided)
+    if given.ndim > 1 and given.shape[1:] != (1,):
+        raise InvalidInput(f"two_sided has shape {given.shape}; it must be one number, or ({count},), one for each of "
+                           f"the {rows}")
+    column = _column("two_sided", two_sided, count, rows)[:, :1]
+    wrong = ~((column == 0) | (column == 1))
+    if wrong.any():
+        row = int(wrong.argmax())
+        raise InvalidInput(f"{rows[:-1]} {row} has two_sided {column[row, 0]:.6g}; it must be 0 or 1")
+    return column
+
+
 def _materials(faces, materials, reflectance, exitance, two_sided):
     """Rows of rho, E and two_sided, and the row of each face."""
     count, rows = faces, "faces"
@@ -188,7 +202,7 @@ def _materials(faces, materials, reflectance, exitance, two_sided):
         if materials[face] >= count:
             raise InvalidInput(f"face {face} has material {materials[face]}, but there are {count} rows, from 0")
     table = np.hstack([_column("reflectance", reflectance, count, rows), _column("exitance", exitance, count, rows),
-                       _column("two_sided", two_sided, count, rows)[:, :1] != 0])
+                       _sides(two_sided, count, rows)])
     if materials is not None:
         return np.ascontiguousarray(materials, dtype=np.uint32), table
     # The engine would name a material, which the caller has not numbered.
