@@ -208,7 +208,10 @@ static int add_foot(struct sight_between *b, int at, int n)
         }
         memcpy(last, next, sizeof last);
     }
-    return found < 2 ? 0 : add_edge(b, end[0], end[1], ANYWHERE);
+    if (found < 2)
+        return 0;
+    b->loose++;
+    return add_edge(b, end[0], end[1], ANYWHERE);
 }
 
 static int put_rim(struct sight_between *b, const struct sight_rim *rim, int n)
@@ -216,8 +219,10 @@ static int put_rim(struct sight_between *b, const struct sight_rim *rim, int n)
     double p[3], q[3], planes[2][4];
     corner_of(b, rim->at, rim->corner, p);
     corner_of(b, rim->at, rim->corner + 1 < n ? rim->corner + 1 : 0, q);
-    if (rim->mate < 0)
+    if (rim->mate < 0) {
+        b->loose++;
         return add_edge(b, p, q, ANYWHERE);
+    }
     plane_of(b, rim->at, planes[0]);
     plane_of(b, rim->mate, planes[1]);
     for (int k = 0; k < 4 && rim->turned; k++)
@@ -249,7 +254,7 @@ static void make_boxes(struct sight_between *b, double more)
 int sight_between_place(struct sight_between *b, const struct exchange_tree *t,
                         const struct sight *sight)
 {
-    b->edges = 0;
+    b->edges = b->loose = 0;
     for (int i = 0; i < b->faces; i++)
         make_face(b, i, &t->h.elements[b->list[i]], &sight->raised);
     for (int i = 0, rim = 0; i < b->faces; i++) {

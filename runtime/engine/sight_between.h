@@ -18,6 +18,7 @@ struct sight_rim {
 
 struct sight_between {
     int faces, rims, edges;       /* edges: rims, and feet in the plane */
+    int loose;                    /* of the edges: outlines from anywhere */
     int bent;                     /* 1: a face is not in one plane, as outlines want them */
     double flat;                  /* how far off a plane a face may be that is in it (m) */
     uint32_t list[SIGHT_LIST];    /* ascending */

@@ -15,13 +15,21 @@
 #include "kernel/lambert.h"
 #include "kernel/polygon_factor.h"
 
+/* Is all of a face, by its centre or by its plane, so far off that what a piece exchanges with it
+ * is smooth? */
+static int is_far(const struct element *piece, const struct element *face, double reach)
+{
+    const double all = reach + face->radius;
+    double apart[3];
+    sub3(apart, face->centre, piece->centre);
+    return !(dot3(apart, apart) < all * all) || fabs(dot3(apart, face->normal)) >= reach;
+}
+
 /* Is any of it so near that the factor to it is not smooth along the piece? */
 static int is_near(const struct element *piece, const struct element *face)
 {
-    const double reach = CLEAR_POINTS_NEAR * piece->radius, all = reach + face->radius;
-    double apart[3];
-    sub3(apart, face->centre, piece->centre);
-    return dot3(apart, apart) < all * all
+    const double reach = CLEAR_POINTS_NEAR * piece->radius;
+    return !is_far(piece, face, reach)
            && polygon_distance(piece->centre, (const double(*)[3])face->vertex, face->vertices,
                                face->normal)
                   < reach;
@@ -107,8 +115,12 @@ double sight_near(const struct element *piece, const struct exchange_tree *tree,
     double off = 0, *value;
     *sum = 0;
     for (int b = 0; b < count; b++) {
+        const struct element *face = &tree->h.elements[faces[b]];
+        if (is_far(piece, face,
+                   CLEAR_POINTS_NEAR * piece->radius)) /* most, and sooner than found */
+            continue;
         if (!find(known, key, faces[b], &value))
-            look_at(piece, &tree->h.elements[faces[b]], value);
+            look_at(piece, face, value);
         off += value[0];
         *sum += value[1];
     }
