@@ -763,8 +763,8 @@ struct RadErrorReport {
      * Else 0 */
     double unseen;
     /* by band: its share of the light that the solution reflects, and noise.value of it as a share
-     * of the band's own light: a band with few of the watts is known by few particles, or by none
-     * (1), and `noise` does not show it */
+     * of the band's own light, in what mended by all particles that did: a band with few of the
+     * watts is known by few particles, or by none (1), and `noise` does not show it */
     double band_light[3], band_noise[3];
     /* of polygons above a hundredth of what reflects, the one that is most surely wrong, and by
      * which share of what it reflects, as measured, and at the least; RadSceneReport.polygons: none

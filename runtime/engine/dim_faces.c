@@ -42,10 +42,12 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "engine/dim_faces.h"
 #include "engine/dim_list.h"
 #include "engine/dim_plan.h"
 #include "engine/dim_split.h"
+#include "engine/face_error.h"
 #include "engine/mend.h"
 #include "engine/mend_places.h"
 #include "engine/own_quarters.h"
@@ -298,24 +300,28 @@ static double near_power(double x)
     return ldexp(1, 2 * half * half < 1 ? exponent - 1 : exponent);
 }
 
-/* What split particles are to carry: as much as there is light over the mean irradiance, and no
- * more than those that are not split; how little at the least is tally_split's to know. Of dim
- * polygons, what is known by now. */
+/* What split particles are to carry: as much as there is light of the band over the mean irradiance
+ * of all, and all bands no more than those that are not split; how little at the least is
+ * tally_split's to know. Of dim polygons, what is known by now. */
 static void set_windows(const struct dim_faces *d, float *window)
 {
     const struct hierarchy *h = d->tracer->hierarchy;
+    const uint32_t bands = d->tracer->bands;
     const double mean = mended_irradiance(d->solve, 0);
     for (uint32_t e = 0; e < h->count; e++) {
         const struct element *at = &h->elements[e];
         const struct dim_polygon *p = at->vertices ? polygon_of(d, at->face) : NULL;
-        double here = mended_irradiance(d->solve, e), before = 0, after = 0;
-        for (uint32_t k = 0; p && k < d->tracer->bands; k++) {
-            before += p->mended[k];
-            after += dim_mean(d, p, k);
+        double here[3], all = 0;
+        for (uint32_t k = 0; k < bands; k++) {
+            here[k] = d->solve->mended.irradiance[(size_t)e * bands + k];
+            if (p)
+                here[k] = p->mended[k] > 0 ? here[k] * dim_mean(d, p, k) / p->mended[k]
+                                           : dim_mean(d, p, k);
+            all += here[k];
         }
-        if (p)
-            here = before > 0 ? here * after / before : after;
-        window[e] = (float)near_power(fmin(fmax(here / mean, (double)FLT_MIN), 1));
+        for (uint32_t k = 0; k < bands; k++)
+            window[(size_t)e * bands + k] =
+                (float)near_power(fmax(here[k] / fmax(all, mean), (double)FLT_MIN));
     }
 }
 
@@ -339,9 +345,9 @@ static double trace_rest(struct dim_faces *d, double rays)
 }
 
 /* Paths, and where these leave some unsure split particles; but these are not asked for fewer rays
- * than mending took: they would know less. */
+ * than mending took: they would know less. noise: theirs, by band. */
 static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budget *budget,
-                     const struct tally *tally)
+                     const struct tally *tally, double noise[3])
 {
     const double mending = (double)tally->rays;
     uint64_t before = *d->rays;
@@ -355,14 +361,19 @@ static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budg
         return rays < 0 ? -1 : 0;
     if (own_quarters_share(s) < 0) /* split particles ask every leaf what they are to carry */
         return -1;
-    float *window = malloc(d->tracer->hierarchy->count * sizeof *window);
+    float *window = malloc((size_t)d->tracer->hierarchy->count * d->tracer->bands * sizeof *window);
     if (!window)
         return -1;
     set_windows(d, window);
     struct tally split;
+    struct face_error known = {0};
+    const double *links = s->state.irradiance;
     const int failed =
         dim_split_trace(d, window, rays, all_sure, &split) < 0
-        || mend_again(&s->operator, & split, tally, s->state.irradiance, s->mended.irradiance) < 0;
+        || face_error_open(&known, &s->problem, d->tracer->hierarchy, links, &split) < 0
+        || mend_again(&s->operator, & split, tally, links, s->mended.irradiance) < 0;
+    memcpy(noise, known.band_noise, sizeof known.band_noise);
+    face_error_close(&known);
     tally_close(&split);
     free(window);
     return failed ? -1 : 0;
@@ -445,7 +456,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                             ? UINT32_MAX
                             : budget->paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
     struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
-    *count = (struct dim_count){0};
+    *count = (struct dim_count){.noise = {INFINITY, INFINITY, INFINITY}};
     double variance;
     const double light = reflected_light(&s->problem, tally, &variance);
     if (tally->particles == 0 || !(light > 0 || variance > 0))
@@ -466,7 +477,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        failed = failed || (d.count > 0 && trace_all(&d, s, budget, tally) < 0);
+        failed = failed || (d.count > 0 && trace_all(&d, s, budget, tally, count->noise) < 0);
     }
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);

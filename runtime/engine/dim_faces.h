@@ -15,7 +15,9 @@
  * face's polygon. */
 struct dim_count {
     uint32_t large, unsure, named[RAD_UNSURE_NAMED];
-    double area; /* of those (m2) */
+    double area;     /* of those (m2) */
+    double noise[3]; /* by band, of particles that were split: face_error.h, band_noise; INFINITY:
+                      * none were */
 };
 
 /* Rays, about, that may be cast at the most. */

@@ -6,6 +6,10 @@
  * merely weak, for they come from the emitters all the way, so they come last; but they serve all
  * polygons at once. How much they do not know, replicates say.
  *
+ * Windows are of each band by itself. Walls that reflect blue alone, in red light and a little of
+ * blue, are as bright as any by all light together; what is left of a red particle there, a blue
+ * one, was then one of few that carried as much as others.
+ *
  * A room that no light reaches but that of its own lamp, beside one that is a billion times as
  * strong, was known to a sixth of its light: particles of its lamp were as few as what they could
  * carry at the least, a millionth, and links, which were right to 3 %, made room for them. So that

@@ -6,9 +6,9 @@
 #include "engine/dim_belief.h"
 
 /* Trace by about `rays`, or until `sure` says so after two doublings in succession; what they say
- * of each polygon is noted there. window[element]: tally_split, borrowed by *split, which has what
- * they counted. Their rays are added to *d->rays. Returns 0, or -1 when out of memory or stopped;
- * either way tally_close. */
+ * of each polygon is noted there. window[element * bands + band]: tally_split, borrowed by *split,
+ * which has what they counted. Their rays are added to *d->rays. Returns 0, or -1 when out of
+ * memory or stopped; either way tally_close. */
 int dim_split_trace(struct dim_faces *d, const float *window, double rays,
                     int (*sure)(const struct dim_faces *d), struct tally *split);
 

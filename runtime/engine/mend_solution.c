@@ -63,12 +63,17 @@ static int follow_irradiance(struct solve *s)
     return 0;
 }
 
-/* Polygons of a size, and what goes with them. Returns 0, or -1 when out of memory or cancelled. */
+/* Polygons of a size, and what goes with them. band_noise becomes that of all that has mended.
+ * Returns 0, or -1 when out of memory or cancelled. */
 static int mend_polygons(struct solve *s, const struct tracer *t, const struct tally *tally,
                          enum dim_size size, const struct dim_budget *budget,
-                         const struct watch *watch, uint64_t *spent, struct dim_count *count)
+                         const struct watch *watch, uint64_t *spent, struct dim_count *count,
+                         double band_noise[3])
 {
     const int changed = dim_faces_mend(s, t, tally, size, budget, watch, spent, count);
+    for (uint32_t k = 0; k < t->bands && changed >= 0 && isfinite(count->noise[k]); k++)
+        if (band_noise[k] > 0)
+            band_noise[k] *= count->noise[k] / hypot(band_noise[k], count->noise[k]);
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 
@@ -98,18 +103,23 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                                    .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {watched_rays_tell, &watched};
     struct dim_count groups;
-    if (mend_polygons(s, t, tally, DIM_LARGE_ONES, &large, &watch, spent, &alone->dim) < 0)
+    if (mend_polygons(s, t, tally, DIM_LARGE_ONES, &large, &watch, spent, &alone->dim,
+                      alone->faces.band_noise)
+        < 0)
         return -1;
     /* Of groups it is told in any case which are not known. */
     const uint64_t before = *spent;
     const double left = fmin(fmax(DIM_RAYS * mending, DIM_SMALL), both - (double)before);
     const struct dim_budget gathered = twice(DIM_GATHERED * fmax(fmin(left, mending), 0));
-    if (mend_polygons(s, t, tally, DIM_GROUPS, &gathered, &watch, spent, &groups) < 0)
+    if (mend_polygons(s, t, tally, DIM_GROUPS, &gathered, &watch, spent, &groups,
+                      alone->faces.band_noise)
+        < 0)
         return -1;
     alone->gathered = groups.large;
     dim_count_add(&alone->dim, &groups);
     const struct dim_budget rest = twice(fmax(left - (double)(*spent - before), 0));
-    return mend_polygons(s, t, tally, DIM_SMALL_ONES, &rest, &watch, spent, &alone->small);
+    return mend_polygons(s, t, tally, DIM_SMALL_ONES, &rest, &watch, spent, &alone->small,
+                         alone->faces.band_noise);
 }
 
 static int mend_by(struct solve *s, const struct tally *tally, double *irradiance)

@@ -21,6 +21,33 @@ enum {
  * the light of a closed room. */
 #define ALL_SPLIT 0x1p62
 
+/* Of what an emitter sends, by bands. */
+static void emitted_shares(const struct tracer *t, uint32_t face, double share[3])
+{
+    const double *exitance = &t->exitance[(size_t)face * t->bands];
+    double whole = 0;
+    for (uint32_t k = 0; k < t->bands; k++)
+        whole += exitance[k];
+    for (uint32_t k = 0; k < t->bands; k++)
+        share[k] = exitance[k] / whole;
+}
+
+/* What a particle carries that leaves there, over what is wanted of one, in the band where that is
+ * most: in a band in which light is dim one that carries as much as others do would be one of few.
+ * Without windows, over the power of one at the start. */
+static double strength(const struct tally *tally, uint32_t leaf, const double share[3],
+                       double least)
+{
+    double most = 0;
+    for (uint32_t k = 0; k < tally->bands; k++)
+        most = fmax(most,
+                    tally->window
+                        ? share[k]
+                              / fmax((double)tally->window[(size_t)leaf * tally->bands + k], least)
+                        : share[k]);
+    return most;
+}
+
 /* From an emitter one carries what the window wants of those that leave its place, but no less than
  * the emitter's share of all power: what shines into the dark is not asked for more than others. */
 int tally_split(struct tally *tally, const struct tracer *t, const float *window, double least,
@@ -35,9 +62,11 @@ int tally_split(struct tally *tally, const struct tracer *t, const float *window
     if (!tally->until || !tally->carried)
         return -1;
     for (uint32_t i = 0; i < l->count; i++) {
-        double share = (l->until[i] - (i > 0 ? l->until[i - 1] : 0)) / l->power,
-               wanted = (double)window[t->hierarchy->face_element[l->face[i]]];
-        tally->carried[i] = fmax(wanted, share);
+        const double share = (l->until[i] - (i > 0 ? l->until[i - 1] : 0)) / l->power;
+        double sent[3];
+        emitted_shares(t, l->face[i], sent);
+        const uint32_t element = t->hierarchy->face_element[l->face[i]];
+        tally->carried[i] = fmax(1 / strength(tally, element, sent, 0), share);
         tally->until[i] = all += share / tally->carried[i];
     }
     for (uint32_t i = 0; i < l->count; i++)
@@ -152,14 +181,12 @@ static struct flight emit(const struct tally *tally, const struct tracer *t, con
     const double *until = tally->window ? tally->until : l->until;
     uint32_t light = running_sums_find(until, l->count, u[0] * until[l->count - 1]);
     struct flight f = {.face = l->face[light]};
-    const double *exitance = &t->exitance[(size_t)f.face * t->bands];
-    double whole = 0;
-    for (uint32_t k = 0; k < t->bands; k++)
-        whole += exitance[k];
-    for (uint32_t k = 0; k < t->bands; k++)
-        f.share[k] = exitance[k] / whole * (tally->window ? tally->carried[light] : 1);
-    if (tally->window)
+    emitted_shares(t, f.face, f.share);
+    if (tally->window) {
+        for (uint32_t k = 0; k < t->bands; k++)
+            f.share[k] *= tally->carried[light];
         f.least = fmin(tally->least, tally->carried[light]);
+    }
     tracer_point(t, f.face, u[1], u[2], f.p);
     return f;
 }
@@ -171,18 +198,12 @@ static void reflect(const struct tally *tally, const struct tracer *t, uint32_t 
                     int most, struct flight *f)
 {
     const double *rho = &t->reflectance[(size_t)f->face * t->bands];
-    double strongest = 0, left = 0, all = 0;
-    for (uint32_t k = 0; k < t->bands; k++) {
-        strongest = fmax(strongest, f->share[k]);
-        all += f->share[k];
+    double strongest = strength(tally, leaf, f->share, f->least);
+    for (uint32_t k = 0; k < t->bands; k++)
         f->share[k] *= rho[k];
-        left = fmax(left, f->share[k]);
-    }
-    if (tally->window) {
-        double wanted = fmax((double)tally->window[leaf], f->least);
-        if (all > SPLIT_WINDOW * wanted || all * SPLIT_WINDOW < wanted)
-            strongest = fmax(strongest * wanted / all, left / most);
-    }
+    const double left = strength(tally, leaf, f->share, f->least);
+    if (tally->window && (strongest > SPLIT_WINDOW || strongest * SPLIT_WINDOW < 1))
+        strongest = fmax(1, left / most);
     f->copies = left > 0 ? (int)(left / strongest) : 0;
     f->copies += u * strongest < left - f->copies * strongest;
     for (uint32_t k = 0; k < t->bands && f->copies > 0; k++)

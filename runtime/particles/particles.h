@@ -80,7 +80,7 @@ struct tally {
     uint32_t *leaf_place; /* [elements]: place of the face; NULL likewise, and without leaves */
     double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power; of
                      * split ones the most that w may be */
-    const float *window;     /* [elements]: NULL: particles are not split */
+    const float *window;     /* [elements * bands + band]: NULL: particles are not split */
     double least;            /* what it wants at the least */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
     int alone;               /* 1: one thread counts, at a time */
@@ -97,12 +97,13 @@ void tally_close(struct tally *tally);
 /* Keep counts of faces alone. */
 void tally_forget_leaves(struct tally *tally);
 
-/* Before any is traced: split particles. window[leaf]: what one should carry that leaves there, a
- * share of the power of all over their number; borrowed. Emitters are chosen by it, too. No
- * particle is split down to less than `least`, but of an emitter that has less than that to send,
- * as of a weak lamp in a room of its own, no less than it starts with. rays: that will be cast,
- * about. The tally counts on leaves; tally_chance is then the most that chance makes of noise, as
- * if each landed with the most that any carries. Returns 0, or -1 when out of memory. */
+/* Before any is traced: split particles. window[leaf * bands + band]: what one should carry at the
+ * most that leaves there, a share of the power of all over their number; borrowed. Emitters are
+ * chosen by it, too. No particle is split down to less than `least`, but of an emitter that has
+ * less than that to send, as of a weak lamp in a room of its own, no less than it starts with.
+ * rays: that will be cast, about. The tally counts on leaves; tally_chance is then the most that
+ * chance makes of noise, as if each landed with the most that any carries. Returns 0, or -1 when
+ * out of memory. */
 int tally_split(struct tally *tally, const struct tracer *t, const float *window, double least,
                 double rays);
 

@@ -603,6 +603,39 @@ START_TEST(test_again)
 }
 END_TEST
 
+/* A closed room in which H is 1 W/m2 of red light and DARK of blue, everywhere: walls emit 1 - rho
+ * of either. All but the first reflect blue alone, and are known by what few particles are left
+ * with of it, unless these are split by bands: by all light walls are as bright as any. */
+START_TEST(test_dim_band)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    made_open(&scene);
+    scene.bands = 3;
+    const uint32_t red = made_material(&scene, 0, 0), blue = made_material(&scene, 0, 0);
+    scene.materials[red].reflectance[0] = 0.9;
+    scene.materials[red].exitance[0] = 0.1;
+    scene.materials[red].exitance[2] = DARK;
+    scene.materials[blue].reflectance[2] = 0.9;
+    scene.materials[blue].exitance[0] = 1;
+    scene.materials[blue].exitance[2] = DARK / 10;
+    const uint32_t walls[6] = {red, blue, blue, blue, blue, blue};
+    made_room(&scene, walls, 1, 1, 1);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(2));
+    mend_all(&s, 1e-2, 200000, &alone);
+    printf("of blue light particles know walls to %.2g\n", alone.faces.band_noise[2]);
+    ck_assert_uint_eq(alone.dim.unsure, 0);
+    for (uint32_t f = 1; f < 6; f++)
+        ck_assert_double_eq_tol(s.mended.irradiance[3 * s.hierarchy.face_element[f] + 2] / DARK, 1,
+                                0.05);
+    ck_assert_double_lt(alone.faces.band_noise[2], 0.2); /* .28 by those that are not split */
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Where every large face is met by particles enough, nothing is asked and nothing paid. */
 START_TEST(test_bright)
 {
@@ -775,6 +808,7 @@ int main(void)
     tcase_add_test(tests, test_small_told);
     tcase_add_test(tests, test_dim_places);
     tcase_add_test(tests, test_bright);
+    tcase_add_test(tests, test_dim_band);
     tcase_add_test(tests, test_other_colours);
     tcase_add_test(tests, test_lamp_outside);
     suite_add_tcase(suite, tests);
