@@ -62,6 +62,7 @@ one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - le
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
 no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)paths_for(d, p, goal);/(void)goal;/ | runtime/check_dim_faces
 split particles tell of dim faces alone | runtime/engine/dim_faces.c | s/^ *.. mend_again(.*$/        ;/ | runtime/check_dim_faces
+replicates that agree know a band | runtime/engine/face_error.c | s/fmax(noise, c->most.row.)/noise/ | runtime/check_measured_error
 windows are of all light | runtime/engine/dim_faces.c | s/near_power(fmax(here.k. /near_power(fmax(all / | runtime/check_dim_faces
 who mended before knew nothing | runtime/engine/mend_clusters.c | s/fmax(least, x->best/fmax(0 * least, x->best/ | runtime/check_dim_faces
 paths change light that ends there | runtime/engine/dim_faces.c | s/p->reflects.band. ? dim_mean/1 ? dim_mean/ | runtime/check_dim_faces

@@ -236,7 +236,8 @@ static void show_polygons(struct face_error *f, const struct polygon_counts *c, 
             reflected += c->mean[j];
             noise += c->deviation[j]; /* one particle has all bands: their noise is alike */
         }
-        double sure = fabs(off) - FACE_ERROR_SURE * noise;
+        /* where none of a band has come, which the next may bring, replicates agree on nothing */
+        double sure = fabs(off) - FACE_ERROR_SURE * fmax(noise, c->most[row]);
         if (!(areas[i] > large) || !(reflected > 0) || !(sure > f->worst_sure * reflected))
             continue;
         f->worst = i;

@@ -48,6 +48,7 @@ void polygon_counts_close(struct polygon_counts *c)
     free(c->deviation);
     free(c->count);
     free(c->class);
+    free(c->most);
     free(c);
 }
 
@@ -71,8 +72,11 @@ static void find_deviations(struct polygon_counts *c, const struct problem *p,
     double *rho = c->deviation;                    /* until s is known */
     for (uint32_t f = 0; f < h->face_count; f++) { /* sides of one polygon have one rho */
         const uint32_t row = polygon_row(&c->rows, h->faces[f].input);
-        for (uint32_t k = 0; k < c->bands && row != NO_ROW; k++)
-            rho[(size_t)row * c->bands + k] = p->reflectance[(size_t)f * c->bands + k];
+        for (uint32_t k = 0; k < c->bands && row != NO_ROW; k++) {
+            const double r = p->reflectance[(size_t)f * c->bands + k];
+            rho[(size_t)row * c->bands + k] = r;
+            c->most[row] = fmax(c->most[row], tally->by_paths ? 0 : r * one);
+        }
     }
     for (size_t i = 0; i < c->values; i++) {
         double by_chance = 0, particles = 0;
@@ -134,7 +138,9 @@ struct polygon_counts *polygon_counts_open(const struct problem *p, const struct
     c->deviation = calloc(n, sizeof *c->deviation);
     c->count = calloc(n, sizeof *c->count);
     c->class = calloc(n, sizeof *c->class);
-    failed = !c->solved || !c->replicate || !c->mean || !c->deviation || !c->count || !c->class;
+    c->most = calloc((size_t)c->rows.count + 1, sizeof *c->most);
+    failed = !c->most || !c->solved || !c->replicate || !c->mean || !c->deviation || !c->count
+             || !c->class;
     if (ranks_any(ranks, failed) || sum_polygons(c, p, h, irradiance, tally) < 0) {
         polygon_counts_close(c);
         return NULL;

@@ -23,7 +23,8 @@ struct polygon_counts {
     double *deviation;    /* [values]: s (W) */
     double *count;        /* [values]: particles by the solution, as far as what came allows that */
     unsigned char *class; /* [values] */
-    double reflected;     /* sum of R^, of all ranks (W) */
+    double *most;     /* [rows]: what of one particle is reflected at the most, in the mean (W) */
+    double reflected; /* sum of R^, of all ranks (W) */
 };
 
 /* Of the mean irradiances of faces, irradiance[element * bands + band] (W/m2), and a tally that

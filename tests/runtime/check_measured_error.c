@@ -209,6 +209,51 @@ START_TEST(test_sure)
 }
 END_TEST
 
+/* Nor if the next particle may bring what is lacking: of blue light, a thousandth of what the
+ * others emit, a wall has got a little with each of many, who agree on it; but one that was left
+ * with blue alone would bring as much as a thousand. Two of these are no proof, 20 are. */
+START_TEST(test_sure_of_a_band)
+{
+    enum { PARTS = 9 };
+    static const int more[] = {2, 20};
+    struct scene scene;
+    struct solve s;
+    struct tally y;
+    made_open(&scene);
+    scene.bands = 3;
+    const uint32_t wall = made_material(&scene, 0, 0), blue = made_material(&scene, 0, 0);
+    scene.materials[wall].exitance[0] = 1;
+    scene.materials[wall].exitance[2] = 1e-3;
+    scene.materials[blue].reflectance[2] = 0.5;
+    const double side = 1.0 / PARTS;
+    for (int i = 0; i < PARTS * PARTS; i++)
+        made_quad(&scene, blue, i % PARTS * side, i / PARTS * side, 0, side, 0, 0, 0, side, 0);
+    made_quad(&scene, wall, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+    made_quad(&scene, wall, 0, 0, 0, 0, 1, 0, 0, 0, 1);
+    made_quad(&scene, wall, 1, 0, 0, 0, 0, 1, 0, 1, 0);
+    made_quad(&scene, wall, 0, 0, 0, 0, 0, 1, 1, 0, 0);
+    made_quad(&scene, wall, 0, 1, 0, 1, 0, 0, 0, 0, 1);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
+    struct tracer t = tracer_over(&s, 2);
+    const uint32_t e = s.hierarchy.face_element[0];
+    const double solved = s.state.irradiance[3 * e + 2];
+    ck_assert_double_eq_tol(solved / 1e-3, 1, 0.02);
+    traced(&y, &t, 1, 50000);
+    for (int i = 0; i < 2; i++) {
+        struct face_error m;
+        s.state.irradiance[3 * e + 2] =
+            solved + more[i] * tally_power_of_one(&y) / s.hierarchy.elements[e].area;
+        ck_assert_int_eq(face_error_open(&m, &s.problem, &s.hierarchy, s.state.irradiance, &y), 0);
+        ck_assert_uint_eq(m.worst, i == 0 ? scene.input_count : 0);
+        face_error_close(&m);
+    }
+    tally_close(&y);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 static char *coarse[] = {"min_share=0.004", NULL};
 
 static void solve_known(struct solve *s, const struct scene *scene, const char *oracle)
@@ -658,6 +703,7 @@ int main(void)
     tcase_add_test(tests, test_few);
     tcase_add_test(tests, test_many);
     tcase_add_test(tests, test_sure);
+    tcase_add_test(tests, test_sure_of_a_band);
     tcase_add_test(tests, test_mended);
     tcase_add_test(tests, test_mends);
     tcase_add_test(tests, test_sliver);

@@ -99,7 +99,7 @@ static void stage_open(struct stage *s)
                 s->b[i] += s->b[c] * e[c].area / e[i].area;
         }
     s->solution = (struct solution){
-        *surfaces, {e, s->h.count, s->h.built, s->h.face_element, 1, s->b, s->b, NULL, NULL}, 0};
+        *surfaces, {e, s->h.count, s->h.built, s->h.face_element, 1, s->b, s->b, NULL, NULL}, 0, 0};
     ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
 }
 

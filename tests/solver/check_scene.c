@@ -1301,7 +1301,7 @@ START_TEST(test_faces_csv)
                                        "a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n"));
     ck_assert_uint_eq(l.report.faces, 2);
     const struct solution solution = {
-        l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL, NULL}, 0};
+        l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL, NULL}, 0, 0};
     ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &solution, NULL), 0);
     char *text = read_text(in_folder("f.csv"));
     ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0,sides\n"
