@@ -574,8 +574,8 @@ struct RadReport {
     /* a sum over all links, and over all counts of particles since the last radCorrect (0: none):
      * equal where all of them are equal to the bit */
     uint64_t link_fingerprint, particle_fingerprint;
-    /* converged: iteration reached its tolerance, and no link changes any more; with linear
-     * elements at most one in a thousand does */
+    /* converged: iteration reached its tolerance, or came as near as last digits let it, and no
+     * link changes any more; with linear elements at most one in a thousand does */
     int passes, iterations, converged;
     enum RadSolver solver;
     enum RadProjection projection;
@@ -763,8 +763,9 @@ struct RadErrorReport {
      * Else 0 */
     double unseen;
     /* by band: its share of the light that the solution reflects, and noise.value of it as a share
-     * of the band's own light, in what mended by all particles that did: a band with few of the
-     * watts is known by few particles, or by none (1), and `noise` does not show it */
+     * of the band's own light: a band with few of the watts is known by few particles, or by none
+     * (1), and `noise` does not show it. Of radCorrect: what all that mended know, split particles
+     * as well */
     double band_light[3], band_noise[3];
     /* of polygons above a hundredth of what reflects, the one that is most surely wrong, and by
      * which share of what it reflects, as measured, and at the least; RadSceneReport.polygons: none
@@ -875,9 +876,10 @@ RAD_API int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlac
  * to land are quartered, and stay so where that tells more than the leaf's own slope does
  * (engine/detail.c): what radGetElements gave before is no longer valid. The mean of polygons above
  * a hundredth of the area that too few particles meet is told by paths from them, too, and where
- * these do not know it either by particles that are split where light is dim: by at most as many
- * rays besides as mending would have taken without links, and as many again where that makes surer
- * what is known, within the most that mending may take; and by what is left of 1.5 million in all.
+ * these do not know it either by particles that are split where light, or light of a band, is dim:
+ * by at most as many rays besides as mending would have taken without links and as links have
+ * spared of these, and as many again where that makes surer what is known, within the most that
+ * mending may take; and by what is left of 1.5 million in all.
  * Smaller polygons are told by paths, as far as some of these are left (engine/dim_faces.c). Where
  * paths from polygons tell them for less than half of the rays, they mend in place of particles,
  * and measure (engine/path_mending.c).

@@ -309,7 +309,7 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     const struct sweep s = {op, l, x, m->bands};
     struct change *change = malloc(op->hierarchy->face_count * sizeof *change);
     double *room = malloc((shares_room(&op->shares) * 3 * m->bands + 1) * sizeof *room);
-    struct stall stall = {.since = 0};
+    struct stall stall = {.sweeps = 0};
     double rho = 0;
     int stopped = 0, grows = 0;
     const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI;

@@ -15,24 +15,20 @@
 #include "kernel/lambert.h"
 #include "kernel/polygon_factor.h"
 
+/* How near any of a face has to be, so that the factor to it is not smooth along the piece. */
+static double reach_of(const struct element *piece)
+{
+    return CLEAR_POINTS_NEAR * piece->radius;
+}
+
 /* Is all of a face, by its centre or by its plane, so far off that what a piece exchanges with it
  * is smooth? */
-static int is_far(const struct element *piece, const struct element *face, double reach)
+static int is_far(const struct element *piece, const struct element *face)
 {
-    const double all = reach + face->radius;
+    const double reach = reach_of(piece), all = reach + face->radius;
     double apart[3];
     sub3(apart, face->centre, piece->centre);
     return !(dot3(apart, apart) < all * all) || fabs(dot3(apart, face->normal)) >= reach;
-}
-
-/* Is any of it so near that the factor to it is not smooth along the piece? */
-static int is_near(const struct element *piece, const struct element *face)
-{
-    const double reach = CLEAR_POINTS_NEAR * piece->radius;
-    return !is_far(piece, face, reach)
-           && polygon_distance(piece->centre, (const double(*)[3])face->vertex, face->vertices,
-                               face->normal)
-                  < reach;
 }
 
 /* What is asked, of a piece and a face. */
@@ -90,7 +86,9 @@ static void look_at(const struct element *piece, const struct element *face, dou
     struct polygon front;
     double mean = 0, at[FACE_RULE][3], f[FACE_RULE];
     value[0] = value[1] = 0;
-    if (!is_near(piece, face))
+    if (!(polygon_distance(piece->centre, (const double(*)[3])face->vertex, face->vertices,
+                           face->normal)
+          < reach_of(piece)))
         return;
     polygon_clip(&front, (const double(*)[3])face->vertex, face->vertices, piece->centre,
                  piece->normal);
@@ -116,8 +114,7 @@ double sight_near(const struct element *piece, const struct exchange_tree *tree,
     *sum = 0;
     for (int b = 0; b < count; b++) {
         const struct element *face = &tree->h.elements[faces[b]];
-        if (is_far(piece, face,
-                   CLEAR_POINTS_NEAR * piece->radius)) /* most, and sooner than found */
+        if (is_far(piece, face)) /* most are, and that is told sooner than they are looked up */
             continue;
         if (!find(known, key, faces[b], &value))
             look_at(piece, face, value);

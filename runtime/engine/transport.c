@@ -29,9 +29,9 @@
  * Where Gauss-Seidel's sweeps are slow the limit is guessed from time to time (extrapolation.h).
  *
  * How far down. A change too small to see may turn a last digit, and that change turn it back a
- * sweep later: for ever, at a bound that falls no more. Sweeps end then, if the change is no more
- * than double precision is worth; or the bound no more than single precision, in which what groups
- * send is summed.
+ * sweep later: for ever, at a bound that falls no more. Sweeps end then, if that change, the
+ * residual, is no more than double precision is worth; or the bound no more than single precision,
+ * in which what groups send is summed.
  *
  * To which tolerance. Constants on leaves have an error that no sweep takes away; a tenth of it is
  * little beside it (variation.c), and where nobody asks for another tolerance that is the one.
@@ -156,10 +156,10 @@ static double left_of(const struct light_operator *op, struct transport *x, doub
 int transport_stalled(const struct light_operator *op, const struct transport *x,
                       struct stall *stall)
 {
-    stall->since = stall->since && x->bound >= stall->least ? stall->since + 1 : 1;
-    if (stall->since == 1)
+    stall->sweeps = stall->sweeps && x->bound >= stall->least ? stall->sweeps + 1 : 1;
+    if (stall->sweeps == 1)
         stall->least = x->bound;
-    return stall->since > SOLVE_STALLED
+    return stall->sweeps > SOLVE_STALLED
            && (x->residual <= SOLVE_DOUBLE
                || (x->bound <= SOLVE_SINGLE && op->separable.count > 0));
 }
@@ -173,7 +173,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     const double rho = reflects(op, x);
     const size_t values = (size_t)op->hierarchy->count * x->bands;
     struct extrapolation guess = {.steady = 0};
-    struct stall stall = {.since = 0};
+    struct stall stall = {.sweeps = 0};
     int stopped = 0;
     while (x->sweeps < most && !x->converged && !stopped) {
         if (shooter)

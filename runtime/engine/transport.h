@@ -49,10 +49,10 @@ int transport_solve(const struct light_operator *op, struct transport *x);
 void transport_sweep(const struct light_operator *op, const struct transport *x, int jacobi,
                      struct change *change, double *room);
 
-/* How long a bound has not fallen; since = 0 at first. */
+/* How long a bound has not fallen. */
 struct stall {
-    double least; /* of all sweeps */
-    int since;    /* sweeps, the one with the least counted */
+    double least; /* bound of all sweeps */
+    int sweeps;   /* since then, that one counted; 0: none yet */
 };
 
 /* After each sweep: does the bound fall no more, for last digits (transport.c)? */

@@ -422,8 +422,8 @@
 /* times cheaper than particles, which tell places within faces as well, paths have to be. Chosen; a
  * look makes them two to four times dearer than they are in the end */
 #define PATHS_CHEAPER 2.0
-/* of the rays of mending. So many may be spent on paths from dim polygons, besides what links have
- * spared of these (mend_solution.c) */
+/* of the rays that mending would take without links. So many may be spent on paths from dim
+ * polygons, besides what links have spared of these (mend_solution.c) */
 #define DIM_RAYS 1.0
 /* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
  * leave a dim polygon unsure: chosen, half a second */

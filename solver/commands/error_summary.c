@@ -151,18 +151,22 @@ static void print_small(const struct measured *m)
                r->small_unsure > 1 ? "are" : "is");
 }
 
-/* of a band's own light: as a reader holds every face to, and so much more than of all light */
+/* of a band's own light: as a reader holds every face to, and so many times as of all light */
 static const double BAND_TOLD = 0.05, BAND_WORSE = 4;
 
 /* Bands that have too few of the particles for their light to be known. */
 static void print_bands(const struct measured *m)
 {
+    const struct RadErrorReport *r = &m->alone;
+    double all = 0;
+    for (int k = 0; k < 3; k++)
+        all += r->band_light[k] * r->band_noise[k];
     for (int k = 0; k < 3 && m->mended; k++) {
-        const double noise = m->alone.band_noise[k];
-        if (!(noise > BAND_TOLD && noise > BAND_WORSE * m->alone.noise.value))
+        const double noise = r->band_noise[k];
+        if (!(noise > BAND_TOLD && noise > BAND_WORSE * all))
             continue;
         printf("bands     of band %d, %.2g %% of the reflected light, particles know ", k,
-               100 * m->alone.band_light[k]);
+               100 * r->band_light[k]);
         if (noise < 0.5)
             printf("faces to %.2g %% only; the rest is as links say\n", 100 * noise);
         else

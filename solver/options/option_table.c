@@ -762,6 +762,6 @@ const struct option_row option_rows[] = {
     {"pass", "N", EXPLAIN, NULL, "as discussed in pass N; 1: before the first solve",
      "a whole number from 1 to 1000", WHOLE(pass, 1, 1000)},
     {"step", NULL, EXPLAIN, NULL, "go through it by hand", FLAG(step)},
-    {"q", NULL, ALL, NULL, "no progress, no summary, warnings of wrong results alone", FLAG(quiet)},
+    {"q", NULL, ALL, NULL, "no progress, no summary, grave warnings alone", FLAG(quiet)},
 };
 const int option_row_count = sizeof option_rows / sizeof *option_rows;

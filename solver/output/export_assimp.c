@@ -302,8 +302,10 @@ int export_assimp(const char *path, const char *id, const struct surfaces *surfa
         return -1;
     const int obj = strcmp(id, "obj") == 0;
     double origin[3];
-    if (far_away(values, origin) > 0 && obj)
+    if (obj)
         memset(origin, 0, sizeof origin);
+    else
+        far_away(values, origin);
     struct written_scene *w = calloc(1, sizeof *w);
     struct written_files *files = calloc(1, sizeof *files);
     int result = -1;

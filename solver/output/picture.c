@@ -24,7 +24,7 @@ struct drawing {
     picture_colour colour;
     const void *context;
     uint8_t *rgb;
-    atomic_int *failed;
+    atomic_int *failed, *seen; /* seen: does any sample see a face? */
 };
 
 /* Half the width of a mesh line on either side of an edge, in samples. */
@@ -109,13 +109,17 @@ static void shade_pixel(const struct drawing *d, const struct samples *s, int fr
 {
     uint32_t bands = d->picture->solution->tree.bands;
     double sum[3] = {0, 0, 0}, colour[3];
+    int seen = 0;
     for (int j = 0; j < SIDE * SIDE; j++) {
         int sx = x * SIDE + j % SIDE, sy = y * SIDE + j / SIDE;
         size_t at = (size_t)(sy - from) * (size_t)d->raster.width + (size_t)sx;
         shade(d, s->face[at], sx, sy, s->light ? &s->light[at * bands] : NULL, colour);
+        seen |= s->face[at] != NO_FACE;
         for (int k = 0; k < 3; k++)
             sum[k] += colour[k] / (SIDE * SIDE);
     }
+    if (seen && !atomic_load_explicit(d->seen, memory_order_relaxed))
+        atomic_store_explicit(d->seen, 1, memory_order_relaxed);
     for (int k = 0; k < 3; k++)
         rgb[k] = srgb_byte(sum[k]);
 }
@@ -182,16 +186,6 @@ static size_t read_meter(const struct picture *p, const struct raster *r, const 
     return count;
 }
 
-/* Whether any sample sees a face. */
-static int sees_any(const struct raster *r, const uint32_t *face)
-{
-    const size_t all = (size_t)r->width * (size_t)r->height;
-    size_t i = 0;
-    while (i < all && face[i] == NO_FACE)
-        i++;
-    return i < all;
-}
-
 static void warn_empty(const struct picture *p)
 {
     const struct surfaces *s = &p->solution->surfaces;
@@ -210,22 +204,10 @@ static void warn_empty(const struct picture *p)
                    eye[0], eye[1], eye[2], low[0], low[1], low[2], high[0], high[1], high[2]);
 }
 
-/* Where a coarse picture sees nothing the picture itself is asked, as small things fall between
- * coarse samples; without the memory for that nothing is said. */
-static void warn_unseen(const struct picture *p)
-{
-    struct samples samples;
-    struct raster r;
-    if (rasterize(p, p->width, p->height, &r, &samples) == 0 && !sees_any(&r, samples.face))
-        warn_empty(p);
-    raster_end(&r);
-    samples_close(&samples);
-}
-
 /* Expose for what a coarse picture shows: what is lit by the scene, or the lamps if that is all. */
 static int measure(struct picture *p)
 {
-    int w = (p->width + METER - 1) / METER, h = (p->height + METER - 1) / METER, any = 0;
+    int w = (p->width + METER - 1) / METER, h = (p->height + METER - 1) / METER;
     size_t count = 0;
     struct meter_sample *meter = malloc((size_t)w * (size_t)h * sizeof *meter);
     struct samples samples;
@@ -233,15 +215,11 @@ static int measure(struct picture *p)
     const int failed = rasterize(p, w, h, &r, &samples) < 0 || !meter;
     for (int lamps = 0; lamps < 2 && !failed && !count; lamps++)
         count = read_meter(p, &r, samples.face, lamps, meter);
-    if (!failed) {
+    if (!failed)
         p->exposure = exposure_measure(meter, count);
-        any = sees_any(&r, samples.face);
-    }
     raster_end(&r);
     free(meter);
     samples_close(&samples);
-    if (!failed && !any && !p->solution->quiet)
-        warn_unseen(p);
     return failed ? -1 : 0;
 }
 
@@ -256,16 +234,24 @@ static void draw_band(const void *context, size_t from, size_t to)
  * drawn by one thread. */
 static int draw(const struct picture *p, picture_colour colour, const void *context, uint8_t *rgb)
 {
-    atomic_int failed = 0;
-    struct drawing d = {
-        .picture = p, .colour = colour, .context = context, .rgb = rgb, .failed = &failed};
+    atomic_int failed = 0, seen = 0;
+    struct drawing d = {.picture = p,
+                        .colour = colour,
+                        .context = context,
+                        .rgb = rgb,
+                        .failed = &failed,
+                        .seen = &seen};
     if (raster_begin(&d.raster, &p->solution->surfaces, &p->view, p->width * SIDE, p->height * SIDE,
                      0))
         return -1;
     thread_pool_run(p->gathering ? 1 : p->solution->threads, (size_t)p->height, BAND, draw_band,
                     &d);
     raster_end(&d.raster);
-    return atomic_load(&failed) ? -1 : 0;
+    if (atomic_load(&failed))
+        return -1;
+    if (!atomic_load(&seen) && !p->solution->quiet)
+        warn_empty(p);
+    return 0;
 }
 
 int picture_no_memory(const char *path)
