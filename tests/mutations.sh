@@ -20,7 +20,7 @@ leaves without end | runtime/kernel/constants.h | s/#define MEND_LEAVES (16/#def
 quarters that say nothing | runtime/engine/mend_solution.c | s/fmin(MEND_DETAIL \* goal->linked, 1)/1.0/ | runtime/check_detail
 dim faces at each look | runtime/engine/mend_solution.c | s/goal->look$/goal->look < 0/ | solver/check_asked
 the middle of an interval | solver/commands/accuracy.c | s/fmax(e->l1_faces.high, m->alone.noise.high)/e->l1_faces.value/ | solver/check_asked
-bands that particles know | runtime/engine/face_error.c | s/f->band_noise.k. = mean/f->band_noise[k] = 0 * mean/ | solver/check_bands
+bands that particles know | runtime/engine/face_error.c | s/band_noise.k. = mean/band_noise[k] = 0 * mean/ | solver/check_bands
 parts of two walls | runtime/engine/dim_parts.c | s/p->reach \* e->normal.k - 3.;/0 * e->normal[k - 3];/ | runtime/check_dim_faces
 groups that nobody is told of | runtime/engine/mend_solution.c | s/^    dim_count_add(.*$/    (void)groups;/ | runtime/check_dim_faces
 light of a black sky for all light | runtime/catalog.dag | s/0.5 \* d->receiver->area \* (1 + d->receiver->reflectance . d->host->mean_reflectance)/d->receiver->area/ | runtime/check_power_scenes
@@ -64,6 +64,7 @@ no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)pat
 split particles tell of dim faces alone | runtime/engine/dim_faces.c | s/^ *.. mend_again(.*$/        ;/ | runtime/check_dim_faces
 replicates that agree know a band | runtime/engine/face_error.c | s/fmax(noise, c->most.row.)/noise/ | runtime/check_measured_error
 windows are of all light | runtime/engine/dim_faces.c | s/near_power(fmax(here.k. /near_power(fmax(all / | runtime/check_dim_faces
+who counts anew starts from what was not settled | runtime/engine/mend_clusters.c | s/        if (mend_is_here(/        if (!before \&\& mend_is_here(/ | runtime/check_dim_faces
 who mended before knew nothing | runtime/engine/mend_clusters.c | s/fmax(least, x->best/fmax(0 * least, x->best/ | runtime/check_dim_faces
 paths change light that ends there | runtime/engine/dim_faces.c | s/p->reflects.band. ? dim_mean/1 ? dim_mean/ | runtime/check_dim_faces
 weak lamps are gathered in a few | runtime/particles/particles.c | s/f.least = fmin(tally->least, tally->carried.light.)/f.least = tally->least/ | runtime/check_dim_faces
@@ -207,7 +208,7 @@ points stand for directions | runtime/engine/sight_rays.c | s/FAR = 4/FAR = 0/ |
 no one more is lost | runtime/engine/face_error.c | s/noise + 1 \/ (particles \* particles)/noise/ | runtime/check_measured_error
 few particles seem normal | runtime/engine/face_error.c | s/count >= FACE_ERROR_MANY/1/ | runtime/check_measured_error
 a lone count is sure | runtime/engine/face_error.c | s/fmax(s, c->deviation\[i\]))/s)/ | runtime/check_measured_error
-sums of clusters as they come | runtime/engine/mend_clusters.c | s/^        settle_sum(m, irradiance);/        (void)settle_sum;/ | runtime/check_mended_error
+sums of clusters as they come | runtime/engine/mend_clusters.c | s/^        settle_sum(before .*$/        (void)settle_sum;/ | runtime/check_mended_error
 all light may be unsure | runtime/engine/mended_error.c | s/\*times = fmax(\*times, for_power);/(void)0;/ | runtime/check_mended_error
 a class that none has met is sure | runtime/engine/polygon_counts.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error
 what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->error, element), 0)/fmax(truth_of(s, seen->error, element), 1)/ | solver/check_error_image

@@ -344,10 +344,16 @@ static double trace_rest(struct dim_faces *d, double rays)
     return fmax(rays, 0);
 }
 
+/* Noise of two counts together; 1: there was none of the light, 0: there is none. */
+static double both_noises(double a, double b)
+{
+    return !(a > 0 && a < 1) ? b : !(b > 0 && b < 1) ? a : a * b / hypot(a, b);
+}
+
 /* Paths, and where these leave some unsure split particles; but these are not asked for fewer rays
- * than mending took: they would know less. noise: theirs, by band. */
+ * than mending took: they would know less. */
 static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budget *budget,
-                     const struct tally *tally, double noise[3])
+                     const struct tally *tally, double band_noise[3])
 {
     const double mending = (double)tally->rays;
     uint64_t before = *d->rays;
@@ -361,19 +367,22 @@ static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budg
         return rays < 0 ? -1 : 0;
     if (own_quarters_share(s) < 0) /* split particles ask every leaf what they are to carry */
         return -1;
+    struct ranks *ranks = d->tracer->ranks;
     float *window = malloc((size_t)d->tracer->hierarchy->count * d->tracer->bands * sizeof *window);
-    if (!window)
+    if (ranks_any(ranks, !window)) {
+        free(window);
         return -1;
+    }
     set_windows(d, window);
     struct tally split;
-    struct face_error known = {0};
     const double *links = s->state.irradiance;
-    const int failed =
-        dim_split_trace(d, window, rays, all_sure, &split) < 0
-        || face_error_open(&known, &s->problem, d->tracer->hierarchy, links, &split) < 0
-        || mend_again(&s->operator, & split, tally, links, s->mended.irradiance) < 0;
-    memcpy(noise, known.band_noise, sizeof known.band_noise);
-    face_error_close(&known);
+    double noise[3] = {0, 0, 0};
+    int failed = dim_split_trace(d, window, rays, all_sure, &split) < 0
+                 || band_noise_find(&s->problem, d->tracer->hierarchy, links, &split, noise) < 0;
+    failed = ranks_any(ranks, failed)
+             || mend_again(&s->operator, & split, tally, links, s->mended.irradiance) < 0;
+    for (uint32_t k = 0; k < d->tracer->bands && !failed; k++)
+        band_noise[k] = both_noises(band_noise[k], noise[k]);
     tally_close(&split);
     free(window);
     return failed ? -1 : 0;
@@ -449,14 +458,14 @@ static void change(const struct dim_faces *d, double *irradiance)
 
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                    enum dim_size size, const struct dim_budget *budget, const struct watch *watch,
-                   uint64_t *rays, struct dim_count *count)
+                   uint64_t *rays, struct dim_count *count, double band_noise[3])
 {
     /* so many that each is believed, at the least: dim_belief.c */
     const double most = size != DIM_SMALL_ONES
                             ? UINT32_MAX
                             : budget->paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
     struct dim_faces d = {.solve = s, .tracer = t, .size = size, .watch = watch, .rays = rays};
-    *count = (struct dim_count){.noise = {INFINITY, INFINITY, INFINITY}};
+    *count = (struct dim_count){0};
     double variance;
     const double light = reflected_light(&s->problem, tally, &variance);
     if (tally->particles == 0 || !(light > 0 || variance > 0))
@@ -477,7 +486,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        failed = failed || (d.count > 0 && trace_all(&d, s, budget, tally, count->noise) < 0);
+        failed = failed || (d.count > 0 && trace_all(&d, s, budget, tally, band_noise) < 0);
     }
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);

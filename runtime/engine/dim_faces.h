@@ -15,9 +15,7 @@
  * face's polygon. */
 struct dim_count {
     uint32_t large, unsure, named[RAD_UNSURE_NAMED];
-    double area;     /* of those (m2) */
-    double noise[3]; /* by band, of particles that were split: face_error.h, band_noise; INFINITY:
-                      * none were */
+    double area; /* of those (m2) */
 };
 
 /* Rays, about, that may be cast at the most. */
@@ -35,11 +33,12 @@ struct dim_budget {
  * more are asked, the largest, than so many rays can tell; but all are counted that are not known,
  * neither by the tally, nor by what mending leaves of their error, nor by paths. Radiosities are
  * the caller's to set. *rays is raised by what is cast; without such polygons nothing is. watch:
- * NULL, or asked. *count: what is known then. Returns how many polygons were changed, or -1 when
+ * NULL, or asked. *count: what is known then. band_noise (face_error.h): of what has mended, and
+ * then of what was split as well. Returns how many polygons were changed, or -1 when
  * out of memory or stopped. */
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                    enum dim_size size, const struct dim_budget *budget, const struct watch *watch,
-                   uint64_t *rays, struct dim_count *count);
+                   uint64_t *rays, struct dim_count *count, double band_noise[3]);
 
 /* Take those of c, other polygons than *to has, into *to. */
 void dim_count_add(struct dim_count *to, const struct dim_count *c);

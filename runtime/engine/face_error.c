@@ -248,7 +248,7 @@ static void show_polygons(struct face_error *f, const struct polygon_counts *c, 
 }
 
 /* Where no particle had any of a band, and the solution has, they know none of it. */
-static void show_bands(struct face_error *f, const struct polygon_counts *c)
+static void find_bands(const struct polygon_counts *c, double light[3], double band_noise[3])
 {
     enum { BANDS = 3, SUMS = 3 * BANDS };
     double sum[SUMS] = {0}, *mean = sum, *solved = mean + BANDS, *noise = solved + BANDS;
@@ -261,8 +261,8 @@ static void show_bands(struct face_error *f, const struct polygon_counts *c)
     polygon_rows_sum(&c->rows, sum, SUMS);
     const double all = solved[0] + solved[1] + solved[2];
     for (size_t k = 0; k < c->bands && all > 0; k++) {
-        f->band_light[k] = solved[k] / all;
-        f->band_noise[k] = mean[k] > 0 ? noise[k] / mean[k] : solved[k] > 0;
+        light[k] = solved[k] / all;
+        band_noise[k] = mean[k] > 0 ? noise[k] / mean[k] : solved[k] > 0;
     }
 }
 
@@ -323,11 +323,22 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         face_error_agree(f);
     }
     show_polygons(f, c, areas, large_area(p, h));
-    show_bands(f, c);
+    find_bands(c, f->band_light, f->band_noise);
     polygon_counts_close(c);
     free(areas);
     free(j.weight);
     return 0;
+}
+
+int band_noise_find(const struct problem *p, const struct hierarchy *h, const double *irradiance,
+                    const struct tally *tally, double noise[3])
+{
+    double light[3];
+    struct polygon_counts *c = polygon_counts_open(p, h, irradiance, tally);
+    if (c)
+        find_bands(c, light, noise);
+    polygon_counts_close(c);
+    return c ? 0 : -1;
 }
 
 void face_error_close(struct face_error *f)

@@ -34,6 +34,10 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
                     const double *irradiance, const struct tally *tally);
 void face_error_close(struct face_error *f);
 
+/* band_noise of that alone; as it was of bands that are not there, or where no light is. */
+int band_noise_find(const struct problem *p, const struct hierarchy *h, const double *irradiance,
+                    const struct tally *tally, double noise[3]);
+
 /* Faces together are off by no less than all their light is, which other counts may tell better:
  * raise l1 to what of power is sure. face_error_open does; again once power is known better. */
 void face_error_agree(struct face_error *f);

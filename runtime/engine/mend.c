@@ -158,7 +158,8 @@ static double believed(const struct sight *own, const struct sight *class, doubl
 
 /* The most that is believed of what is counted: that of the best mixture with what others, whose
  * noise it has once mended, have counted. Particles that carry less than others are thought to be
- * as noisy as those that carry most. Of paths leaves have no counts. */
+ * as noisy as those that carry most. Of paths leaves have no counts, and what particles have told
+ * of leaves before paths did is not asked for again. */
 static double most_believed(const struct mending *m, uint32_t band)
 {
     const struct tally *now = m->sums.tally, *before = m->before;
@@ -374,12 +375,12 @@ int mend_again(const struct light_operator *op, const struct tally *tally,
                const struct tally *before, const double *links, double *irradiance)
 {
     struct mending m = {.before = before, .irradiance = irradiance};
-    struct mend_sums sums = {.op = op};
+    struct mend_sums earlier = {0};
     int failed = open_levels(&m.levels, op) < 0
                  || mend_sums_open(&m.sums, op, tally, MEND_LEAVES, irradiance) < 0
-                 || (before && mend_sums_open(&sums, op, before, MEND_FACES, links) < 0)
-                 || mend_clusters(&m.sums, before ? &sums : NULL, irradiance, NULL, NULL) < 0;
-    mend_sums_close(&sums);
+                 || (before && mend_sums_open(&earlier, op, before, MEND_FACES, links) < 0)
+                 || mend_clusters(&m.sums, before ? &earlier : NULL, irradiance, NULL, NULL) < 0;
+    mend_sums_close(&earlier);
     if (!failed) {
         m.kin = malloc(((size_t)m.sums.places.count + 1) * sizeof *m.kin);
         m.note = malloc(((size_t)widest(&m.levels) * m.sums.bands + 1) * sizeof *m.note);

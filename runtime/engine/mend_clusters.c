@@ -29,7 +29,8 @@
  * square r^2, by the same estimate. The best mixture of what is as uncertain as that and of a count
  * believes r^2 / (r^2 + s^2) of the difference, and so much is believed at the most: a class of few
  * clusters that are far better known than by those who are counted now may by chance look worse.
- * What the scene receives, and reflects, the first know best: they are not split.
+ * What the scene receives stays, and what it reflects is held to what the first know of it: they
+ * are not split.
  *
  * [Stein 1981, the unbiased estimate of that error; Donoho and Johnstone 1995, a threshold by it;
  * Breiman 1995 and Gao 1998, this h, the garrote]
@@ -251,11 +252,12 @@ static double noise_of_count(const struct mend_sums *m, uint32_t e, uint32_t k)
     return noise_of(m, e, e, k, 0, m->received[mend_at(m, e, k)]);
 }
 
-static void mend_scene(const struct mend_sums *m, uint32_t k, double *irradiance)
+/* stays: it is mended already, and is the sum over its leaves. */
+static void mend_scene(const struct mend_sums *m, uint32_t k, int stays, double *irradiance)
 {
-    const double linked = m->linked[mend_at(m, 0, k)], off = m->received[mend_at(m, 0, k)] - linked;
-    irradiance[k] =
-        (linked + believed(off, noise_of_count(m, 0, k))) / m->op->hierarchy->elements[0].area;
+    const double linked = m->linked[mend_at(m, 0, k)], off = m->received[mend_at(m, 0, k)] - linked,
+                 more = stays ? 0 : believed(off, noise_of_count(m, 0, k));
+    irradiance[k] = (linked + more) / m->op->hierarchy->elements[0].area;
 }
 
 /* Is it a face that this rank adds to sums? */
@@ -377,15 +379,15 @@ int mend_clusters(const struct mend_sums *m, const struct mend_sums *before, dou
     for (uint32_t k = 0; k < m->bands && !failed; k++) {
         if (doubt)
             doubt[k] = 0;
-        if (!before && mend_is_here(&m->places, 0))
-            mend_scene(m, k, irradiance);
+        if (mend_is_here(&m->places, 0))
+            mend_scene(m, k, before != NULL, irradiance);
     }
     for (size_t i = 0; i < x.count && !failed; i++) /* they get light from those before them */
         for (uint32_t k = 0; k < m->bands; k++)
             share_out(&x, x.parent[i], k, &x.note[i * m->bands + k], irradiance, doubt);
     failed = failed || (risk && find_risk(&x, irradiance, risk) < 0);
-    if (!failed && !before)
-        settle_sum(m, irradiance);
+    if (!failed)
+        settle_sum(before ? before : m, irradiance);
     clusters_close(&x);
     return failed ? -1 : 0;
 }

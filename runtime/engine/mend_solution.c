@@ -63,17 +63,13 @@ static int follow_irradiance(struct solve *s)
     return 0;
 }
 
-/* Polygons of a size, and what goes with them. band_noise becomes that of all that has mended.
- * Returns 0, or -1 when out of memory or cancelled. */
+/* Polygons of a size, and what goes with them. Returns 0, or -1 when out of memory or cancelled. */
 static int mend_polygons(struct solve *s, const struct tracer *t, const struct tally *tally,
                          enum dim_size size, const struct dim_budget *budget,
                          const struct watch *watch, uint64_t *spent, struct dim_count *count,
                          double band_noise[3])
 {
-    const int changed = dim_faces_mend(s, t, tally, size, budget, watch, spent, count);
-    for (uint32_t k = 0; k < t->bands && changed >= 0 && isfinite(count->noise[k]); k++)
-        if (band_noise[k] > 0)
-            band_noise[k] *= count->noise[k] / hypot(band_noise[k], count->noise[k]);
+    const int changed = dim_faces_mend(s, t, tally, size, budget, watch, spent, count, band_noise);
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 

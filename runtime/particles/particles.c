@@ -71,9 +71,8 @@ int tally_split(struct tally *tally, const struct tracer *t, const float *window
     }
     for (uint32_t i = 0; i < l->count; i++)
         tally->carried[i] *= all;
-    for (uint32_t k = 0; k < tally->bands; k++)
-        tally->square[k] = fmax(all, 1);
-    tally->one = ALL_SPLIT / (fmax(rays, 1) * fmax(all, 1)); /* none carries more than `all` */
+    /* none carries more than `all`, or, later, than a window wants, which are 1.25 at the most */
+    tally->one = ALL_SPLIT / (fmax(rays, 1) * fmax(all, 1.25));
     return 0;
 }
 
@@ -143,8 +142,7 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
         for (uint32_t k = 0; k < tally->bands; k++) {
             w[k] = (int64_t)(l->share[k] * tally->one + 0.5);
             batch->first[k] += w[k];
-            if (!tally->window) /* of split ones the most is known */
-                batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
+            batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
         }
         if (here[i])
             tally_count(tally, batch->replicate, place[i], leaf[i], w);
@@ -204,6 +202,8 @@ static void reflect(const struct tally *tally, const struct tracer *t, uint32_t 
     const double left = strength(tally, leaf, f->share, f->least);
     if (tally->window && (strongest > SPLIT_WINDOW || strongest * SPLIT_WINDOW < 1))
         strongest = fmax(1, left / most);
+    else if (tally->window) /* the band that was the strongest may be gone: no other is to grow */
+        strongest = fmin(strongest, fmax(1, left));
     f->copies = left > 0 ? (int)(left / strongest) : 0;
     f->copies += u * strongest < left - f->copies * strongest;
     for (uint32_t k = 0; k < t->bands && f->copies > 0; k++)
@@ -398,7 +398,7 @@ int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t parti
         thread_pool_run(t->threads, mine, 1, trace_batches, &all);
     add_sums(t->ranks, &sums);
     tally->rays += sums.rays;
-    for (uint32_t k = 0; k < tally->bands && !tally->window; k++) /* as any call, but for chance */
+    for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
         tally->square[k] = sums.first[k] > 0 ? (double)sums.second[k] / (double)sums.first[k] : 0;
     return failed || loop.stopped ? -1 : 0;
 }

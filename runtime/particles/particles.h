@@ -78,8 +78,7 @@ struct tally {
     const uint32_t
         *first;           /* [number]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
     uint32_t *leaf_place; /* [elements]: place of the face; NULL likewise, and without leaves */
-    double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power; of
-                     * split ones the most that w may be */
+    double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements * bands + band]: NULL: particles are not split */
     double least;            /* what it wants at the least */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
@@ -101,9 +100,9 @@ void tally_forget_leaves(struct tally *tally);
  * most that leaves there, a share of the power of all over their number; borrowed. Emitters are
  * chosen by it, too. No particle is split down to less than `least`, but of an emitter that has
  * less than that to send, as of a weak lamp in a room of its own, no less than it starts with.
- * rays: that will be cast, about. The tally counts on leaves; tally_chance is then the most that
- * chance makes of noise, as if each landed with the most that any carries. Returns 0, or -1 when
- * out of memory. */
+ * rays: that will be cast, about. The tally counts on leaves; tally_chance holds of it where light
+ * is bright, and is more than chance makes of noise where it is dim. Returns 0, or -1 when out of
+ * memory. */
 int tally_split(struct tally *tally, const struct tracer *t, const float *window, double least,
                 double rays);
 
