@@ -71,8 +71,8 @@ int tally_split(struct tally *tally, const struct tracer *t, const float *window
     }
     for (uint32_t i = 0; i < l->count; i++)
         tally->carried[i] *= all;
-    /* none carries more than `all`, or, later, than a window wants, which are 1.25 at the most */
-    tally->one = ALL_SPLIT / (fmax(rays, 1) * fmax(all, 1.25));
+    /* none carries more than `all`, or, later, than is within what a window wants, 1.25 at most */
+    tally->one = ALL_SPLIT / (fmax(rays, 1) * fmax(all, 1.25 * SPLIT_WINDOW));
     return 0;
 }
 
@@ -202,8 +202,6 @@ static void reflect(const struct tally *tally, const struct tracer *t, uint32_t 
     const double left = strength(tally, leaf, f->share, f->least);
     if (tally->window && (strongest > SPLIT_WINDOW || strongest * SPLIT_WINDOW < 1))
         strongest = fmax(1, left / most);
-    else if (tally->window) /* the band that was the strongest may be gone: no other is to grow */
-        strongest = fmin(strongest, fmax(1, left));
     f->copies = left > 0 ? (int)(left / strongest) : 0;
     f->copies += u * strongest < left - f->copies * strongest;
     for (uint32_t k = 0; k < t->bands && f->copies > 0; k++)
