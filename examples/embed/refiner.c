@@ -523,8 +523,8 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
 /* times cheaper than particles, which tell places within faces as well, paths have to be. Chosen; a
  * look makes them two to four times dearer than they are in the end */
 #define REFINER_PATHS_CHEAPER 2.0
-/* of the rays that mending would take without links. So many may be spent on paths from dim polygons, besides what links have
- * spared of these (mend_solution.c) */
+/* of the rays that mending would take without links. So many may be spent on paths from dim
+ * polygons, besides what links have spared of these (mend_solution.c) */
 #define REFINER_DIM_RAYS 1.0
 /* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
  * leave a dim polygon unsure: chosen, half a second */
