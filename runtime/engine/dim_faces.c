@@ -42,7 +42,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "engine/dim_faces.h"
 #include "engine/dim_list.h"
 #include "engine/dim_plan.h"
@@ -62,6 +61,23 @@ enum {
 };
 #define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
 
+/* What the element receives in a band (W). */
+static double power_of(const struct dim_faces *d, uint32_t element, uint32_t band)
+{
+    return d->tracer->hierarchy->elements[element].area
+           * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
+}
+
+/* The mean irradiance of a polygon, as it is mended by now. */
+static void find_mean(const struct dim_faces *d, const struct dim_polygon *p, double mean[3])
+{
+    for (uint32_t k = 0; k < d->tracer->bands; k++) {
+        mean[k] = 0;
+        for (uint32_t i = p->from; i < p->to; i++)
+            mean[k] += power_of(d, d->tracer->hierarchy->face_element[d->face[i]], k) / p->area;
+    }
+}
+
 /* What mending says of a polygon, and how sure that is: by how replicates differ, and as if one
  * more particle might have met it; or by how far it is from what these counted. */
 static void weigh(const struct dim_faces *d, const struct tally *tally,
@@ -70,14 +86,12 @@ static void weigh(const struct dim_faces *d, const struct tally *tally,
     const struct tracer *t = d->tracer;
     double one = tally->by_paths ? 0 : tally_power_of_one(tally) / p->area, noise,
            counted = dim_light_of(sum, &noise);
+    find_mean(d, p, p->mended);
     for (uint32_t i = p->from; i < p->to; i++)
         for (uint32_t k = 0; k < t->bands; k++) {
-            size_t at = (size_t)t->hierarchy->face_element[d->face[i]] * t->bands + k;
-            double part =
-                d->solve->mended.irradiance[at] * tracer_surface(t, d->face[i])->area / p->area;
-            p->mended[k] += part;
-            p->reflects[k] |= t->reflectance[(size_t)d->face[i] * t->bands + k] > 0;
-            p->light += t->reflectance[(size_t)d->face[i] * t->bands + k] * part;
+            const double rho = t->reflectance[(size_t)d->face[i] * t->bands + k];
+            p->reflects[k] |= rho > 0;
+            p->light += rho * (power_of(d, t->hierarchy->face_element[d->face[i]], k) / p->area);
         }
     p->variance = fmax(noise + one * one, (p->light - counted) * (p->light - counted));
 }
@@ -390,22 +404,6 @@ static int trace_all(struct dim_faces *d, struct solve *s, const struct dim_budg
 
 /* ---- what becomes of the solution */
 
-/* What the element receives in a band (W). */
-static double power_of(const struct dim_faces *d, uint32_t element, uint32_t band)
-{
-    return d->tracer->hierarchy->elements[element].area
-           * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
-}
-
-static void find_given(const struct dim_faces *d, struct dim_polygon *p)
-{
-    for (uint32_t k = 0; k < d->tracer->bands; k++) {
-        p->given[k] = 0;
-        for (uint32_t i = p->from; i < p->to; i++)
-            p->given[k] += power_of(d, d->tracer->hierarchy->face_element[d->face[i]], k) / p->area;
-    }
-}
-
 /* What it is to have; of light that it does not reflect, what it has. */
 static double mean_of(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
 {
@@ -444,7 +442,7 @@ static void change(const struct dim_faces *d, double *irradiance)
 {
     struct changing x = {.d = d, .irradiance = irradiance};
     for (uint32_t j = 0; j < d->count; j++)
-        find_given(d, &d->polygon[j]);
+        find_mean(d, &d->polygon[j], d->polygon[j].given);
     for (uint32_t k = 0; k < d->tracer->bands; k++) {
         double before = 0, after = 0, whole = power_of(d, 0, k);
         for (uint32_t j = 0; j < d->count; j++) {

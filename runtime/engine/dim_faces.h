@@ -34,8 +34,8 @@ struct dim_budget {
  * neither by the tally, nor by what mending leaves of their error, nor by paths. Radiosities are
  * the caller's to set. *rays is raised by what is cast; without such polygons nothing is. watch:
  * NULL, or asked. *count: what is known then. band_noise (face_error.h): of what has mended, and
- * then of what was split as well. Returns how many polygons were changed, or -1 when
- * out of memory or stopped. */
+ * then of what was split as well. Returns how many polygons were changed, or -1 when out of memory
+ * or stopped. */
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                    enum dim_size size, const struct dim_budget *budget, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count, double band_noise[3]);
