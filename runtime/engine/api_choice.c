@@ -57,9 +57,17 @@ struct choosing {
     struct RadSolveOptions options;
     struct RadChoiceOptions wishes;
     struct RadChoice so_far;
-    double *uncovered; /* [face], handed from solution to solution (engine/problem.h) */
-    double linked;     /* squared error of coarser links on places; 0: none are known */
+    struct handed_on handed; /* from solution to solution */
+    double linked;           /* squared error of coarser links on places; 0: none are known */
 };
+
+/* Another one is solved instead, if any is. */
+static void give_up(RadSolution s)
+{
+    s->dead = 1;
+    solve_hand_on(&s->solve);
+    radReleaseSolution(s);
+}
 
 /* Solve with links, or without any: *solution. A limit on pairs above 0 may be met. Returns 0, 1
  * where it was, or -1, both with *solution NULL. */
@@ -77,10 +85,9 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
     *solution = NULL;
     if (radScaleOracle(x->oracle, scale) < 0)
         return -1;
-    RadSolution s = radNewSolution(x->scene, x->oracle, &options);
+    RadSolution s = api_new_solution(x->scene, x->oracle, &options, &x->handed);
     if (!s)
         return -1;
-    s->solve.problem.options.uncovered = x->uncovered;
     s->solve.linked = x->linked;
     int status = 0;
     if (x->wishes.begin && x->wishes.begin(x->wishes.user, s, &x->so_far) != 0)
@@ -88,11 +95,10 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
                           "given up by whoever wanted to begin it");
     if (status == 0)
         status = api_solve(s, limited);
-    s->solve.problem.options.uncovered = NULL;
     if (status == 0)
         *solution = s;
     else
-        radReleaseSolution(s);
+        give_up(s);
     x->so_far.seconds += status > 0 ? seconds() - start : 0;
     return status;
 }
@@ -102,7 +108,7 @@ static int measure(struct choosing *x, RadSolution solution, struct RadPlaces *p
 {
     const double start = seconds();
     if (radMeasurePlaces(solution, 0, places) < 0) {
-        radReleaseSolution(solution);
+        give_up(solution);
         return -1;
     }
     x->so_far.rays += places->rays;
@@ -159,7 +165,7 @@ static int solve_coarse(struct choosing *x, RadSolution *solution)
     const struct ray_split places = (*solution)->places;
     radGetReport(*solution, &r);
     x->so_far.seconds += r.seconds.build + r.seconds.refine + r.seconds.iterate;
-    radReleaseSolution(*solution);
+    give_up(*solution);
     status = solve(x, COARSE, pairs, solution);
     if (status <= 0)
         return status;
@@ -208,7 +214,7 @@ static int choose(struct choosing *x, RadSolution *solution)
         return 0;
     x->so_far.rays += r.rays;
     x->so_far.seconds = seconds() - start;
-    radReleaseSolution(*solution);
+    give_up(*solution);
     x->linked = most_off(&p);
     return solve(x, 1, 0, solution);
 }
@@ -231,17 +237,19 @@ RadSolution radSolveScene(RadScene scene, RadOracle oracle, const struct RadSolv
         return NULL;
     }
     const uint32_t faces = scene->scene.face_count;
-    x.uncovered = malloc(faces * sizeof *x.uncovered); /* NULL: found anew each time */
-    for (uint32_t i = 0; x.uncovered && i < faces; i++)
-        x.uncovered[i] = NAN;
+    double *uncovered = malloc(faces * sizeof *uncovered); /* NULL: found anew each time */
+    for (uint32_t i = 0; uncovered && i < faces; i++)
+        uncovered[i] = NAN;
+    x.handed.uncovered = uncovered;
     /* nothing can be coarser or finer of an oracle without thresholds */
     const int count = radScaleOracle(oracle, 1);
     const int status = count < 0   ? -1
                        : count > 0 ? choose(&x, &solution)
                                    : solve(&x, 1, 0, &solution);
-    free(x.uncovered);
+    handed_on_free(&x.handed);
     if (status < 0)
         return NULL;
+    solution->solve.problem.options.handed_on = NULL;
     if (choice)
         *choice = x.so_far;
     return solution;

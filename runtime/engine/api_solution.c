@@ -196,7 +196,8 @@ static int ask_lit(RadScene scene, const struct RadSolveOptions *o, const char *
     return 0;
 }
 
-RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSolveOptions *given)
+RadSolution api_new_solution(RadScene scene, RadOracle oracle, const struct RadSolveOptions *given,
+                             struct handed_on *handed)
 {
     static const struct RadSolveOptions defaults;
     const struct RadSolveOptions *o = given ? given : &defaults;
@@ -224,6 +225,7 @@ RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSol
     solution->scene = scene;
     solution->oracle = oracle;
     struct solve_options options = engine_options(solution, o);
+    options.handed_on = handed;
     const char *cause;
     if (ask_lit(scene, o, &cause) < 0
         || solve_open(&solution->solve, &scene->scene, &options, &cause) < 0) {
@@ -234,6 +236,11 @@ RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSol
     radRetainScene(scene);
     radRetainOracle(oracle);
     return solution;
+}
+
+RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options)
+{
+    return api_new_solution(scene, oracle, options, NULL);
 }
 
 void radRetainSolution(RadSolution solution)

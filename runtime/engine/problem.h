@@ -16,6 +16,17 @@
 
 struct solve;
 
+/* What solves of one scene by the same options, one after the other, need not find anew. */
+struct handed_on {
+    /* [face_count]: how much of each face nothing stands on, as far as they have found it, else
+     * NAN; refinement adds to it. NULL: nobody keeps it */
+    double *uncovered;
+    /* between solves, rays over this hierarchy, and both as they were built: solve_open takes them,
+     * solve_hand_on gives them back. rays NULL: there are none now */
+    struct hierarchy hierarchy;
+    struct rays *rays;
+};
+
 struct solve_options {
     /* relative L1 error of B that iteration may leave; 0: a tenth of what constants on leaves
      * leave (transport.h) */
@@ -34,9 +45,7 @@ struct solve_options {
     int unit;      /* ignore the materials: every face has B = 1 and stays so (view factors) */
     int all_sides; /* sides that no light comes to are not told apart (lit_faces.h) */
     struct limits limits; /* of refinement */
-    /* [face_count]: how much of each face nothing stands on, as far as solutions of the same scene
-     * have found it, else NAN; refinement adds to it. NULL: nobody keeps it */
-    double *uncovered;
+    struct handed_on *handed_on;  /* NULL: nobody solves before or after */
     struct ranks *ranks; /* processes that solve it together, all with these options; NULL: one */
     /* NULL: none; nonzero cancels */
     int (*progress)(void *context, const struct solve *solve, const char *phase);

@@ -99,10 +99,13 @@ struct solve {
     char cause[200];
 };
 
-/* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set
- * and nothing to free. */
+/* Build hierarchy and rays over the scene, unless they are handed on; set B = E. Returns 0; on
+ * failure -1 with *cause set and nothing to free. */
 int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options,
                const char **cause);
+/* Hierarchy and rays to the next solve of options.handed_on. This one may only be closed then. */
+void solve_hand_on(struct solve *s);
+void handed_on_free(struct handed_on *handed);
 
 /* What comes before the first refinement. Returns 0, or -1 with *cause set. */
 int solve_begin(struct solve *s, const struct refiner *refiner, const char **cause);

@@ -77,6 +77,53 @@ static int read_materials(struct problem *p)
     return 0;
 }
 
+static int is_handed_on(const struct solve_options *o)
+{
+    return o->handed_on && o->handed_on->rays;
+}
+
+static int take_hierarchy(struct solve *s)
+{
+    const struct problem *p = &s->problem;
+    const struct solve_options *o = &p->options;
+    if (!is_handed_on(o))
+        return hierarchy_build_by(
+            &s->hierarchy, faces_of(p), p->scene->face_count,
+            o->clusters ? (enum clustering)(o->clusters - 1) : CLUSTERING_DEFAULT, o->threads);
+    s->hierarchy = o->handed_on->hierarchy;
+    memset(&o->handed_on->hierarchy, 0, sizeof o->handed_on->hierarchy);
+    return 0;
+}
+
+static struct rays *take_rays(struct solve *s, const double *brightest, const char **cause)
+{
+    const struct problem *p = &s->problem;
+    const struct solve_options *o = &p->options;
+    if (!is_handed_on(o))
+        return rays_open(&s->hierarchy, brightest, p->whitest, o->threads, cause);
+    struct rays *rays = o->handed_on->rays;
+    o->handed_on->rays = NULL;
+    rays_renew(rays, &s->hierarchy);
+    return rays;
+}
+
+void solve_hand_on(struct solve *s)
+{
+    struct handed_on *handed = s->problem.options.handed_on;
+    hierarchy_renew(&s->hierarchy);
+    handed->hierarchy = s->hierarchy;
+    handed->rays = s->problem.rays;
+    memset(&s->hierarchy, 0, sizeof s->hierarchy);
+    s->problem.rays = NULL;
+}
+
+void handed_on_free(struct handed_on *handed)
+{
+    rays_close(handed->rays);
+    hierarchy_free(&handed->hierarchy);
+    free(handed->uncovered);
+}
+
 int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options,
                const char **cause)
 {
@@ -94,12 +141,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     }
     p->bands = options->unit ? 1 : scene->bands;
     s->operator=(struct light_operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
-    if (ranks_any(options->ranks,
-                  hierarchy_build_by(h, faces_of(p), scene->face_count,
-                                     options->clusters ? (enum clustering)(options->clusters - 1)
-                                                       : CLUSTERING_DEFAULT,
-                                     options->threads)
-                      < 0))
+    if (ranks_any(options->ranks, take_hierarchy(s) < 0))
         goto fail;
     s->report.seconds.clusters = seconds() - start;
     if (shares_open(&s->operator.shares, options->ranks, h) < 0)
@@ -123,7 +165,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     transport_average(&s->operator, & x);
     if (oracle_inputs_update(&s->inputs, &s->operator, s->state.radiosity, h) < 0)
         goto fail;
-    p->rays = rays_open(h, brightest, p->whitest, options->threads, cause);
+    p->rays = take_rays(s, brightest, cause);
     if (ranks_any(options->ranks, !p->rays))
         goto fail;
     oracle_inputs_guess(p, h);

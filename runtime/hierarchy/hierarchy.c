@@ -258,6 +258,18 @@ void hierarchy_drop(struct hierarchy *h, uint32_t count)
     h->count = count;
 }
 
+void hierarchy_renew(struct hierarchy *h)
+{
+    hierarchy_drop(h, h->built);
+    for (uint32_t i = 0; i < h->built; i++) {
+        struct element *e = &h->elements[i];
+        e->child = e->children ? e->child : 0;
+        e->radiosity = e->spread = e->deviation = e->reflectance = e->lower = e->gap = 0;
+        e->mark = 0;
+        element_reset(e);
+    }
+}
+
 void hierarchy_close_up(struct hierarchy *h, uint32_t first, uint32_t *place)
 {
     uint32_t kept = first;

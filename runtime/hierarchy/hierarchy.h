@@ -95,6 +95,9 @@ int hierarchy_split(struct hierarchy *h, uint32_t element);
 /* Undo all splits since there were `count` elements. */
 void hierarchy_drop(struct hierarchy *h, uint32_t count);
 
+/* As hierarchy_build left it: without any split, and with nothing said of an element by a solver. */
+void hierarchy_renew(struct hierarchy *h);
+
 /* Take out of the elements from `first` on those whose parent has no children any more, or is taken
  * out. place[]: [count]: the index each has from now on, 0 for those that are gone. */
 void hierarchy_close_up(struct hierarchy *h, uint32_t first, uint32_t *place);

@@ -198,10 +198,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.exitance = brightest;
     rays->host.reflectance = whitest;
     rays->host.mean_reflectance = reflected > 0 ? reflected / area : 1;
-    rays->host.importance = 1;
-    rays->host.impact = 1;
     rays->host.faces = h->face_count;
-    rays->host.elements = (const struct element *const *)&h->elements;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
     rays->host.ray_offset = RAY_OFFSET * size;
@@ -245,6 +242,16 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
     return geometry;
 }
 
+void rays_renew(struct rays *rays, const struct hierarchy *h)
+{
+    rays->hierarchy = h;
+    rays->host.elements = (const struct element *const *)&h->elements;
+    rays->host.importance = 1;
+    rays->host.impact = 1;
+    rays->host.rank = 0;
+    memset(rays->tallies, 0, (size_t)rays->threads * sizeof *rays->tallies);
+}
+
 struct rays *rays_prepare(const struct hierarchy *h, const double *exitance,
                           const double *reflectance, int threads, const char **cause)
 {
@@ -253,13 +260,13 @@ struct rays *rays_prepare(const struct hierarchy *h, const double *exitance,
     if (!rays)
         return NULL;
     rays->threads = threads;
-    rays->hierarchy = h;
     rays->tallies = calloc((size_t)threads, sizeof *rays->tallies);
     rays->stood = calloc(h->face_count + (size_t)1, sizeof *rays->stood);
     if (!rays->tallies || !rays->stood) {
         rays_close(rays);
         return NULL;
     }
+    rays_renew(rays, h);
     totals(rays, h, exitance, reflectance);
     free_space_find(&rays->free, h, rays->host.flat, 2 * rays->host.ray_offset);
     return rays;

@@ -32,6 +32,8 @@ struct rays *rays_prepare(const struct hierarchy *h, const double *exitance,
 /* Nothing when it is there. Returns 0; -1 when Embree fails, with *cause set. Not while others ask.
  */
 int rays_build(struct rays *rays, const char **cause);
+/* For a hierarchy that is as theirs was when they were opened: nothing told, no ray counted. */
+void rays_renew(struct rays *rays, const struct hierarchy *h);
 /* 0: nothing stands between any two surfaces, and no host ever casts a ray. */
 int rays_in_the_way(const struct rays *rays);
 
