@@ -492,7 +492,8 @@ struct RadChoice {
     double seconds; /* for these */
 };
 /* Told of each solution that is tried, before it is solved, and of its links. Return 0 to go on,
- * anything else to give up: RAD_ERROR_CANCELLED. */
+ * anything else to give up: RAD_ERROR_CANCELLED. Those that are not chosen may be retained, but are
+ * empty then, as one that was cancelled. */
 typedef int (*RadTryFunction)(void *user, RadSolution solution, const struct RadChoice *choice);
 struct RadChoiceOptions {
     int keep_links; /* 1: there shall be some, whatever they cost */

@@ -221,6 +221,8 @@ links at any price | runtime/engine/api_choice.c | s/may_be_none ? FEW : 0/0 * F
 scales upon scales | runtime/engine/api_oracle.c | s/near = p->integer ? round(oracle->set\[i\]/near = p->integer ? round(refiner_get(oracle->refiner, i)/; s/: oracle->set\[i\] \* times/: refiner_get(oracle->refiner, i) * times/ | runtime/check_choice
 smallest parts grow | runtime/engine/api_oracle.c | s/fmin(scale, 1)/scale/ | runtime/check_choice
 a limit met is told | runtime/engine/api_choice.c | s/api_solve(s, limited)/api_solve(s, 0)/ | runtime/check_choice
+a tree that was told of light | runtime/hierarchy/hierarchy.c | /^void hierarchy_renew/,/^}/s/element_reset(e);// | runtime/check_clustering
+rays of what was given up | runtime/visibility/rays.c | /^void rays_renew/,/^}/s/memset(.*;// | runtime/check_choice
 links that nobody keeps | runtime/engine/api_choice.c | s/!x->wishes.keep_links/1/ | runtime/check_choice
 light goes through solids | runtime/engine/sight_look.c | s/l->joined && bodies_hold/0 * l->joined \&\& bodies_hold/ | runtime/check_stacked
 what is not convex covers nothing | runtime/engine/exchange_contacts.c | s/return told > 0 \&\&/return told < 0 \&\&/ | runtime/check_stacked

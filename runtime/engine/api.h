@@ -123,8 +123,8 @@ void api_forget_source(struct oracle_source *source);
 struct refiner *api_interpret(RadOracle oracle);
 
 /* As radNewSolution, from what others of the scene by the same options hand on; NULL: none do. */
-RadSolution api_new_solution(RadScene scene, RadOracle oracle, const struct RadSolveOptions *options,
-                             struct handed_on *handed);
+RadSolution api_new_solution(RadScene scene, RadOracle oracle,
+                             const struct RadSolveOptions *options, struct handed_on *handed);
 
 /* After a call that could not do its work: the solution is dead. Returns -1. */
 int api_give_up(RadSolution solution, const char *cause);

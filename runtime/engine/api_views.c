@@ -96,7 +96,7 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     if (!report)
         return;
     memset(report, 0, sizeof *report);
-    if (!solution)
+    if (!solution || !solution->solve.problem.rays) /* handed on to another */
         return;
     const struct solve *s = &solution->solve;
     const struct row_report *rows = &s->report.rows;

@@ -44,8 +44,8 @@ struct solve_options {
     int no_links;  /* 1: particles alone tell how light goes (ambient.h) */
     int unit;      /* ignore the materials: every face has B = 1 and stays so (view factors) */
     int all_sides; /* sides that no light comes to are not told apart (lit_faces.h) */
-    struct limits limits; /* of refinement */
-    struct handed_on *handed_on;  /* NULL: nobody solves before or after */
+    struct limits limits;        /* of refinement */
+    struct handed_on *handed_on; /* NULL: nobody solves before or after */
     struct ranks *ranks; /* processes that solve it together, all with these options; NULL: one */
     /* NULL: none; nonzero cancels */
     int (*progress)(void *context, const struct solve *solve, const char *phase);

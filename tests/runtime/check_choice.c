@@ -154,6 +154,7 @@ END_TEST
 struct told {
     int times, none, stop;
     double first;
+    RadSolution tried; /* the first, retained */
 };
 
 static int begin(void *user, RadSolution solution, const struct RadChoice *choice)
@@ -162,10 +163,29 @@ static int begin(void *user, RadSolution solution, const struct RadChoice *choic
     struct RadReport report;
     radGetReport(solution, &report);
     ck_assert_int_eq(report.passes, 0);
-    if (told->times++ == 0)
+    if (told->times++ == 0) {
         told->first = choice->scale;
+        told->tried = solution;
+        radRetainSolution(solution);
+    }
     told->none += choice->no_links;
     return told->stop;
+}
+
+/* What the first try had others have by now. */
+static void expect_empty(const struct asked *a, struct told *told)
+{
+    struct RadReport report;
+    struct RadElements elements;
+    radGetReport(told->tried, &report);
+    ck_assert_uint_eq(report.elements, 0);
+    radGetElements(told->tried, &elements);
+    ck_assert_uint_eq(elements.count, 0);
+    ck_assert_ptr_null(radGetHost(told->tried));
+    ck_assert_int_eq(radSolve(told->tried), -1);
+    ck_assert_int_eq(radGetDeviceError(a->device), RAD_ERROR_INVALID_OPERATION);
+    radReleaseSolution(told->tried);
+    told->times = 0;
 }
 
 /* What is chosen is what comes of the same scale, or of no links, by hand. */
@@ -181,6 +201,12 @@ static void expect_by_hand(RadDevice device, RadScene scene, RadSolution chosen,
     ck_assert_int_gt(radScaleOracle(oracle, choice->scale), 0);
     RadSolution by_hand = radNewSolution(scene, oracle, &options);
     ck_assert_int_eq(radSolve(by_hand), 0);
+    struct RadReport reports[2];
+    radGetReport(chosen, &reports[0]);
+    radGetReport(by_hand, &reports[1]);
+    ck_assert_uint_eq(reports[0].rays, reports[1].rays);
+    ck_assert_uint_eq(reports[0].elements, reports[1].elements);
+    ck_assert_uint_eq(reports[0].link_fingerprint, reports[1].link_fingerprint);
     ck_assert_double_gt(radiosity_of(chosen, scene_report.polygons, a), 0);
     radiosity_of(by_hand, scene_report.polygons, b);
     ck_assert(memcmp(a, b, scene_report.polygons * sizeof *a) == 0);
@@ -211,6 +237,8 @@ START_TEST(test_links_pay)
         ck_assert_uint_gt(choice.rays, 0);
         expect_by_hand(a.device, a.scene, solution, &choice);
         radReleaseSolution(solution);
+        ck_assert_int_eq(told.times, 2);
+        expect_empty(&a, &told);
     }
     release(&a);
 }
@@ -236,6 +264,8 @@ START_TEST(test_links_do_not_pay)
     ck_assert_uint_eq(report.links, 0);
     expect_by_hand(a.device, a.scene, solution, &choice);
     radReleaseSolution(solution);
+    expect_empty(&a, &told);
+    wishes.begin = NULL;
     /* Whoever wants links gets them, and who says how to solve for them. */
     wishes.keep_links = 1;
     solution = radSolveScene(a.scene, a.oracle, &linear, &wishes, &choice);
@@ -305,6 +335,7 @@ START_TEST(test_refused)
     ck_assert_ptr_null(radSolveScene(a.scene, a.oracle, &linear, &wishes, NULL));
     ck_assert_int_eq(told.times, 1);
     ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_CANCELLED);
+    expect_empty(&a, &told);
     const struct RadSolveOptions none = {.no_links = 1}, unit = {.unit = 1};
     ck_assert_ptr_null(radSolveScene(a.scene, a.oracle, &none, NULL, NULL));
     ck_assert_int_eq(radGetDeviceError(a.device), RAD_ERROR_INVALID_ARGUMENT);

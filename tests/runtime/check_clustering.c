@@ -304,6 +304,32 @@ START_TEST(test_million)
 }
 END_TEST
 
+/* What splits and solvers have done to a tree is undone, to the last byte. */
+START_TEST(test_renewed)
+{
+    const struct faces s = made(_i);
+    struct hierarchy h, fresh;
+    ck_assert_int_eq(hierarchy_build(&h, s.face, s.count), 0);
+    ck_assert_int_eq(hierarchy_build(&fresh, s.face, s.count), 0);
+    for (uint32_t i = 0; i < s.count; i += 3)
+        ck_assert_int_eq(hierarchy_split(&h, h.face_element[i]), 0);
+    ck_assert_int_eq(hierarchy_split(&h, h.count - 1), 0);
+    for (uint32_t i = 0; i < h.count; i++) {
+        struct element *e = &h.elements[i];
+        e->radiosity = e->spread = e->deviation = e->reflectance = 3;
+        e->importance = e->tolerance = e->lower = e->gap = 4;
+        e->bend = 5;
+        e->mark = 6;
+    }
+    hierarchy_renew(&h);
+    ck_assert_uint_eq(h.count, fresh.count);
+    ck_assert_int_eq(memcmp(h.elements, fresh.elements, h.count * sizeof *h.elements), 0);
+    hierarchy_free(&h);
+    hierarchy_free(&fresh);
+    free(s.face);
+}
+END_TEST
+
 static void side(struct scene *s, int n, const double o[3], const double a[3], const double b[3])
 {
     for (int i = 0; i < n; i++)
@@ -389,6 +415,7 @@ int main(void)
     tcase_add_loop_test(c, test_tree, 0, SETS * CLUSTERING_COUNT);
     tcase_add_loop_test(c, test_same, 0, SETS * CLUSTERING_COUNT);
     tcase_add_loop_test(c, test_measures, 0, (SETS - 1) * CLUSTERING_COUNT);
+    tcase_add_loop_test(c, test_renewed, 0, SETS - 1);
     tcase_add_loop_test(c, test_million, 0, CLUSTERING_COUNT);
     tcase_add_loop_test(c, test_furnace, 0, thorough() ? CLUSTERING_COUNT : 2);
     suite_add_tcase(suite, c);
