@@ -95,7 +95,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element);
 /* Undo all splits since there were `count` elements. */
 void hierarchy_drop(struct hierarchy *h, uint32_t count);
 
-/* As hierarchy_build left it: without any split, and with nothing said of an element by a solver. */
+/* As hierarchy_build left it: without splits, and with nothing said of elements by a solver. */
 void hierarchy_renew(struct hierarchy *h);
 
 /* Take out of the elements from `first` on those whose parent has no children any more, or is taken
