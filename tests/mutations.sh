@@ -58,16 +58,16 @@ faces are surer than all light | runtime/engine/dim_belief.h | s/variance + d->s
 what nobody has found light on is dark | runtime/engine/dim_belief.h | s/light > 0 \&\& variance/variance/ | runtime/check_unseen_light
 planes prove nothing | runtime/engine/lights_reach.c | s/^    return reach;/    return 1;/ | runtime/check_unseen_light
 all colours are one | runtime/engine/lights_reach.c | s/(answers(p, white\[j\], i) \&\& /(/ | runtime/check_unseen_light
-one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - left)/ | runtime/check_dim_faces
+one face in twenty is few | runtime/engine/dim_plan.c | s/most - left)/rays - left)/ | runtime/check_dim_plan
 covered faces are looked at | runtime/engine/dim_list.c | s/? uncovered \*/? (uncovered >= 0) */ | runtime/check_dim_faces
-no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)paths_for(d, p, goal);/(void)goal;/ | runtime/check_dim_faces
-split particles tell of dim faces alone | runtime/engine/dim_faces.c | s/^ *.. mend_again(.*$/        ;/ | runtime/check_dim_faces
+no paths for the rest | runtime/engine/dim_plan.c | s/p->wanted += (uint64_t)paths_for(d, p, goal);/(void)goal;/ | runtime/check_dim_plan
+split particles tell of dim faces alone | runtime/engine/dim_faces.c | s/^ *.. mend_again(.*$/        ;/ | runtime/check_split
 replicates that agree know a band | runtime/engine/face_error.c | s/fmax(noise, c->most.row.)/noise/ | runtime/check_measured_error
 windows are of all light | runtime/engine/dim_faces.c | s/near_power(fmax(here.k. /near_power(fmax(all / | runtime/check_dim_faces
-who counts anew starts from what was not settled | runtime/engine/mend_clusters.c | s/        if (mend_is_here(/        if (!before \&\& mend_is_here(/ | runtime/check_dim_faces
-who mended before knew nothing | runtime/engine/mend_clusters.c | s/fmax(least, x->best/fmax(0 * least, x->best/ | runtime/check_dim_faces
+who counts anew starts from what was not settled | runtime/engine/mend_clusters.c | s/        if (mend_is_here(/        if (!before \&\& mend_is_here(/ | runtime/check_split
+who mended before knew nothing | runtime/engine/mend_clusters.c | s/fmax(least, x->best/fmax(0 * least, x->best/ | runtime/check_split
 paths change light that ends there | runtime/engine/dim_faces.c | s/p->reflects.band. ? dim_mean/1 ? dim_mean/ | runtime/check_dim_faces
-weak lamps are gathered in a few | runtime/particles/particles.c | s/f.least = fmin(tally->least, tally->carried.light.)/f.least = tally->least/ | runtime/check_dim_faces
+weak lamps are gathered in a few | runtime/particles/particles.c | s/f.least = fmin(tally->least, tally->carried.light.)/f.least = tally->least/ | runtime/check_split
 tiles are as dim as they are small | runtime/engine/dim_faces.c | s/p->told = doubt_of(d, faces.doubt, p) <= DIM_GOAL/p->told = doubt_of(d, faces.doubt, p) < 0/ | runtime/check_dim_faces
 small faces that no ray asks are known | runtime/engine/dim_faces.c | s/if (p->asked .. p->told)/if (p->asked < 2)/ | runtime/check_dim_faces
 what nobody knows is not wrong | solver/commands/error_summary.c | s/m->mended \&\& r->unsure > 0)/0 \&\& r->unsure > 0)/ | solver/check_summary
