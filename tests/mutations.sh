@@ -71,7 +71,7 @@ weak lamps are gathered in a few | runtime/particles/particles.c | s/f.least = f
 tiles are as dim as they are small | runtime/engine/dim_faces.c | s/p->told = doubt_of(d, faces.doubt, p) <= DIM_GOAL/p->told = doubt_of(d, faces.doubt, p) < 0/ | runtime/check_dim_faces
 small faces that no ray asks are known | runtime/engine/dim_faces.c | s/if (p->asked .. p->told)/if (p->asked < 2)/ | runtime/check_dim_faces
 what nobody knows is not wrong | solver/commands/error_summary.c | s/m->mended \&\& r->unsure > 0)/0 \&\& r->unsure > 0)/ | solver/check_summary
-paths miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_faces
+paths that agree miss nothing | runtime/engine/dim_belief.c | s/DIM_MISSED)/1e9)/ | runtime/check_dim_plan
 near as far | runtime/terms/visibility.h | s/dot3(apart, apart) < wide \* wide/dot3(apart, apart) < 0 * wide/ | runtime/check_runtime
 shadow .05 | runtime/kernel/constants.h | s/\(ROW_SHADOW\) *0.5$/\1 0.05/ | runtime/check_transport runtime/check_closure runtime/check_solve
 rough .2, settled 5 | runtime/kernel/constants.h | s/\(ROUGH_TOLERANCE\) *0.005$/\1 0.2/; s/\(SETTLED\) *1000$/\1 5/ | runtime/check_transport runtime/check_clusters
