@@ -99,7 +99,7 @@ if [ -n "${THOROUGH-}" ]; then
 : >"$tmp/alone"
 for header in $(grep '\.h$' "$tmp/files"); do
     echo "#include \"$(basename "$header")\"" >"$tmp/alone.c"
-    ${CC:-cc} -std=c11 -D_XOPEN_SOURCE=700 -fsyntax-only -I"$(dirname "$header")" -I"$build/gen" -Iruntime -Isolver -Idagc -Itests/hand "$tmp/alone.c" >"$tmp/said" 2>&1 ||
+    ${CC:-cc} -std=c11 -D_XOPEN_SOURCE=700 -Werror=implicit-function-declaration -fsyntax-only -I"$(dirname "$header")" -I"$build/gen" -Iruntime -Isolver -Idagc -Itests/hand "$tmp/alone.c" >"$tmp/said" 2>&1 ||
         grep -m 1 'error' "$tmp/said" >>"$tmp/alone"
 done
 judge "a header that does not compile alone" "$tmp/alone"

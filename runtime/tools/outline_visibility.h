@@ -10,6 +10,7 @@
 
 #include "discussion.h"
 #include "kernel/outline_visibility.h"
+#include "terms/blockers.h"
 #include "terms/visibility.h"
 
 TOOL enum outline_visibility_answer tool_outline_visibility(struct discussion *d)
