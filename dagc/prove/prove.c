@@ -7,6 +7,7 @@
  * (states.c).
  * SPDX-License-Identifier: MIT */
 #include <dlfcn.h>
+#include <math.h>
 
 #include "prove/prove.h"
 #include "prove/proving.h"
@@ -28,19 +29,26 @@ static double count_paths(const struct proof *proof)
     return paths[0];
 }
 
+/* Paths are exponentially many: a double need not hold their number. */
+static const char *paths_text(const struct proof *proof)
+{
+    struct arena *arena = &proof->dag->arena;
+    double paths = count_paths(proof);
+    return isinf(paths)   ? "1e308 or more"
+           : paths < 1e15 ? dag_format(arena, "%.0f", paths)
+                          : dag_format(arena, "%.3g", paths);
+}
+
 static void report(const struct proof *proof, const struct prove_extent *extent, int flavours)
 {
-    double paths = count_paths(proof);
-    if (extent->cut) {
+    if (extent->cut) { /* a path may be run from many beginnings */
         fprintf(proof->report,
-                "%s: no difference on %ld of %.3g paths: a sample, since they go through more than "
-                "%ld states\n",
-                proof->oracle->name, extent->walks, paths, extent->states);
+                "%s: no difference in %ld runs: a sample of its paths (%s) from all beginnings, "
+                "since they go through more than %ld states\n",
+                proof->oracle->name, extent->walks, paths_text(proof), extent->states);
         return;
     }
-    fprintf(proof->report,
-            paths < 1e15 ? "%s: proved on all %.0f paths" : "%s: proved on all %.3g paths",
-            proof->oracle->name, paths);
+    fprintf(proof->report, "%s: proved on all %s paths", proof->oracle->name, paths_text(proof));
     fprintf(proof->report, " from %ld beginnings, by %ld states:", extent->starts, extent->states);
     for (enum prove_flavour f = 0; f < PROVE_FLAVOURS; f++)
         if (flavours >> f & 1)

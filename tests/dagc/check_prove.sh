@@ -99,6 +99,16 @@ count=$((count + 1))
 printf '#!/bin/sh\nfor f; do case $f in */oracles.c) sed -i "s/if (d.terms.size_level >= SIZE_FINE)/if (d.terms.size_level >= SIZE_ROUGH)/" $f;; esac; done\nexec cc "$@" -O0\n' >broken
 CC=$tmp/broken $copied >said 2>&1
 [ $? = 1 ] && grep -q 'differs in what it takes for known' said || fail "copies that take too much for known"
+# More paths than a number can hold.
+awk 'BEGIN {
+    print "oracle many { param p : flux = 1 in [0, inf]; start n0;"
+    for (i = 0; i < 1500; i++)
+        printf "node n%d = weigh(most = p * %d, share = 0.5) { light -> %s; heavy -> %s; }\n", i, i + 1,
+            i < 1499 ? "n" i + 1 : "drop", i < 1498 ? "n" i + 2 : "drop"
+    print "}" }' >many.dag
+count=$((count + 1))
+$dagc -Wno-all --catalog "$top/tests/dagc/test_catalog.dag" --prove many.dag >said 2>&1
+grep -q '^many: proved on all 1e308 or more paths from ' said || fail "more paths than a number can hold"
 # Arguments that are no number at the ends of ranges: the first of a path is told of, also among those of one call.
 cat >doubts.dag <<'END_OF_GRAPH'
 oracle doubts {
