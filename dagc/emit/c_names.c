@@ -252,24 +252,30 @@ void dag_c_collect(struct dag *dag, struct c_names *names, const struct c_tokens
 
 /* ---- the prefix */
 
-/* PREFIX_NAME for what is all capitals, prefix_name for the rest; once only. */
-static void print_name(struct text *out, const struct c_token *token, const char *prefix)
+static int is_defined(const struct c_names *names, const char *name)
+{
+    return dag_find(&names->tags, name) >= 0 || dag_find(&names->ordinary, name) >= 0
+           || dag_find(&names->macros, name) >= 0;
+}
+
+/* PREFIX_NAME for what is all capitals, prefix_name for the rest. A name that begins so keeps
+ * itself; another that would become the same gets the prefix once more. */
+static void print_name(struct dag *dag, struct text *out, const struct c_token *token,
+                       const struct c_names *names, const char *prefix)
 {
     size_t length = strlen(prefix);
+    char *before = dag_alloc(&dag->arena, length + 1); /* its last byte is 0 */
+    const char *name = dag_c_copy_name(dag, token->text);
     int small = 0;
     for (size_t i = 0; i < token->length; i++)
         small |= islower((unsigned char)token->text[i]);
-    int has = token->length > length + 1 && token->text[length] == '_';
-    for (size_t i = 0; has && i < length; i++)
-        has = small ? token->text[i] == prefix[i]
-                    : token->text[i] == (char)toupper((unsigned char)prefix[i]);
-    if (!has && small)
-        dag_print(out, "%s_", prefix);
-    else if (!has) {
-        dag_print_upper(out, prefix);
-        dag_print(out, "_");
-    }
-    dag_print(out, "%.*s", (int)token->length, token->text);
+    for (size_t i = 0; i < length; i++)
+        before[i] = small ? prefix[i] : (char)toupper((unsigned char)prefix[i]);
+    if (token->length <= length + 1 || strncmp(name, before, length) != 0 || name[length] != '_')
+        do
+            name = dag_format(&dag->arena, "%s_%s", before, name);
+        while (is_defined(names, name));
+    dag_print(out, "%s", name);
 }
 
 static int has_prefix(struct dag *dag, const struct c_names *names, const struct c_token *token,
@@ -288,7 +294,7 @@ void dag_c_print(struct dag *dag, struct text *out, const struct c_token *token,
                  const struct c_token *before, const struct c_names *names, const char *prefix)
 {
     if (token->kind == C_NAME && has_prefix(dag, names, token, before))
-        print_name(out, token, prefix);
+        print_name(dag, out, token, names, prefix);
     else if (token->kind == C_DIRECTIVE && dag_c_directive(token, "include") == NULL
              && dag_c_directive(token, "error") == NULL) {
         struct c_tokens inside = dag_c_tokens(dag, token->text + 1, token->length - 1);

@@ -34,6 +34,13 @@ static const char *text_kept(struct dag *dag, struct text *text)
     return copy;
 }
 
+static const char *in_capitals(struct dag *dag, const char *name)
+{
+    struct text upper = {0};
+    dag_print_upper(&upper, name);
+    return text_kept(dag, &upper);
+}
+
 static const char declarations_name[] = "<declarations>", functions_name[] = "<functions>";
 
 /* What dagc writes itself. */
@@ -131,17 +138,15 @@ static unsigned char *find_tools(struct dag *dag, const struct amalgam *files)
     unsigned char *found = dag_alloc(&dag->arena, (size_t)dag->tool_count);
     for (int i = 0; i < dag->tool_count; i++) {
         const struct tool *tool = &dag->tools[i];
-        struct text upper = {0};
-        dag_print_upper(&upper, tool->name);
-        const char *name = text_kept(dag, &upper);
+        const char *name = in_capitals(dag, tool->name);
         found[i] =
             dag_find(&files->names.expanded, dag_format(&dag->arena, "%s_answer", tool->name)) >= 0;
         found[i] |=
             dag_find(&files->names.expanded, dag_format(&dag->arena, "%s_ANSWERS", name)) >= 0;
         for (int a = 0; a < tool->answers.count; a++) {
-            dag_print_upper(&upper, dag->answers[tool->answers.first + a].name);
-            const char *answer = dag_format(&dag->arena, "%s_%s", name, text_kept(dag, &upper));
-            upper = (struct text){0};
+            const char *answer =
+                dag_format(&dag->arena, "%s_%s", name,
+                           in_capitals(dag, dag->answers[tool->answers.first + a].name));
             found[i] |= dag_find(&files->names.expanded, answer) >= 0;
         }
     }
@@ -160,6 +165,35 @@ int dag_is_prefix(const char *text)
     return letters && strlen(text) <= NAME_MAX_LENGTH;
 }
 
+/* Is the guard that of a header which stays where it is? It is not read, but guards go by names. */
+static int is_guard_of_host(struct dag *dag, const struct emit_options *options, const char *guard)
+{
+    for (int i = 0; i < options->host_count; i++) {
+        const char *path = options->host[i], *slash = strrchr(path, '/');
+        const char *base = slash == NULL ? path : slash + 1;
+        char *name = dag_alloc(&dag->arena, strlen(base) + 1);
+        memcpy(name, base, strlen(base));
+        for (char *at = name; *at != '\0'; at++)
+            *at = *at == '.' || *at == '-' ? '_' : *at;
+        if (strcmp(in_capitals(dag, name), guard) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* The header's: PREFIX_H, but where a file in it, or one that it includes, has that. */
+static const char *choose_guard(struct standalone *s)
+{
+    struct dag *dag = s->dag;
+    const char *upper = in_capitals(dag, s->files.prefix);
+    const char *guard = dag_format(&dag->arena, "%s_H", upper);
+    while (dag_find(&s->files.names.macros, guard) >= 0
+           || is_guard_of_host(dag, &s->options, guard))
+        guard = dag_format(&dag->arena, "%s_%s", upper, guard);
+    dag_put(&dag->arena, &s->files.names.macros, guard, 1);
+    return guard;
+}
+
 void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
                          const char *header_name, const struct emit_options *options)
 {
@@ -176,13 +210,10 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
     s.options.terms = find_terms(dag, &s.files);
     s.tools = find_tools(dag, &s.files);
     open_files(&s, prefix);
+    const char *guard = choose_guard(&s);
 
     dag_emit_banner(dag, header);
-    dag_print(header, "#ifndef ");
-    dag_print_upper(header, prefix);
-    dag_print(header, "_H\n#define ");
-    dag_print_upper(header, prefix);
-    dag_print(header, "_H\n");
+    dag_print(header, "#ifndef %s\n#define %s\n", guard, guard);
     put_public(&s, header);
     if (!options->cxx)
         dag_print(header, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");

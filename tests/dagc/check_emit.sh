@@ -259,6 +259,17 @@ for compiler; do
     [ -x "$engine" ] && check "$compiler decides as the engine does" cmp wanted got
 done
 [ -x "$engine" ] || echo "skipped: no $engine to compare with"
+# A name that begins with the prefix keeps itself, and so what would become the same must become another; nor may the header's guard
+# be that of a file in it or of a header that it includes.
+for prefix in light cluster outline tool discussion catalog geometry kernel_cut; do
+    check "standalone, prefix $prefix" "$dagc" --standalone --prefix $prefix -o same.c --header same.h "$top/examples/oracles/power.dag"
+    # shellcheck disable=SC2086
+    check "prefix $prefix compiles" gcc -std=c99 $warnings -fsyntax-only same.c
+    [ $prefix = light ] && check "a name for each" grep -q '^enum light_light_visibility_answer {' same.h
+done
+check "the program's header has the guard" "$dagc" -Wno-all --standalone --prefix net --host sub/net.h -o same.c --header same.h "$bf"
+check "so this has another" grep -q '^#ifndef NET_NET_H' same.h
+
 check "--prefix" status 2 "$dagc" --standalone --prefix 9x -o x.c --header x.h "$bf"
 check "no --standalone" status 2 "$dagc" --prefix x "$bf"
 check "a proof writes nothing" status 2 "$dagc" --prove -o x.c "$bf"
