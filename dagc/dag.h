@@ -596,6 +596,8 @@ int dag_is_doubtful(const struct dag *dag, const struct argument *argument);
 struct dag_doubt dag_doubt(struct dag *dag, const struct node *node,
                            const struct argument *argument);
 
+int dag_same_unit(const struct unit *a, const struct unit *b);
+
 /* Does an argument of some node that the oracle reaches read this fact? */
 int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact);
 

@@ -258,7 +258,6 @@ const char *dag_known_units(struct dag *dag); /* "m kg s ..." */
 int dag_is_si_unit(const char *name);
 /* for messages: "W/m2", "a plain number" */
 const char *dag_unit_name(const struct type *type);
-int dag_same_unit(const struct unit *a, const struct unit *b);
 /* Exponents a + sign * b; 0: too large. */
 int dag_unit_product(struct unit *result, const struct unit *a, const struct unit *b, int sign);
 int dag_unit_root(struct unit *unit); /* halves the exponents; 0: one is odd */

@@ -97,6 +97,18 @@ static int (*evaluate(const struct step *step, struct discussion *d, double *val
     return step->call;
 }
 
+/* Of an argument that may have any: what the catalog calls the unit that it has here. */
+static const char *unit_of(const struct dag *dag, const struct argument *a, const struct type *type)
+{
+    if (!type->any_unit)
+        return type->unit_text;
+    for (int i = 0; i < dag->type_count; i++)
+        if (!dag->types[i].any_unit
+            && dag_same_unit(&dag->types[i].unit, &dag->expressions[a->expression].unit))
+            return dag->types[i].unit_text;
+    return "";
+}
+
 static void note_arguments(struct RadArgument *out, const struct dag *dag, const struct node *n,
                            const double *values)
 {
@@ -104,7 +116,7 @@ static void note_arguments(struct RadArgument *out, const struct dag *dag, const
         const struct argument *a = &dag->arguments[n->arguments.first + k];
         const struct parameter *q = &dag->parameters[a->parameter];
         out[k] = (struct RadArgument){.name = q->name,
-                                      .unit = dag->types[q->type].unit_text,
+                                      .unit = unit_of(dag, a, &dag->types[q->type]),
                                       .doc = q->doc,
                                       .value = values[k],
                                       .computed = !dag_is_fixed(dag, a->expression)};

@@ -141,6 +141,27 @@ for text in "there is no command 'nix'" "no parameter 'nope'" "'7' is no pair" "
     check "by hand: $text" grep -qF "$text" err
 done
 
+# A parameter that its author fixed is as it was when a node is replaced, and a mistake that follows is told as what it is. Of
+# arguments that may have any unit the one that they have is told.
+cat >fixed.dag <<'END'
+oracle fixed_one {
+  param relative : ratio = 0.1 in [0, inf] role link_threshold;
+  fixed param share : ratio = 1e-3 in [0, 1];
+  start pair;
+  node pair  = clusters() { apart -> stop; receiver -> subdivide_receiver; emitter -> subdivide_emitter; surfaces -> small; }
+  node small = above(value = emitter.radius, limit = receiver.radius / 10) { yes -> guard; no -> seen; }
+  node guard = can_split(min_share = share) { emitter | both -> bright; otherwise -> seen; }
+  node bright = transfer(relative = relative) { above -> subdivide_emitter; otherwise -> seen; }
+  node seen  = visibility(rays = 4) { none -> stop; otherwise -> form; }
+  node form  = form_factor() { done -> link; }
+}
+END
+printf 'all\nreplace bright=below\nreplace nope=below\n' | "$radiosity" explain "$small" --oracle fixed.dag --pair 0,3 --step >out 2>err
+check "by hand: a node that is not there, behind a fixed parameter" grep -qF "there is no node 'nope'" err
+check "by hand: the fixed parameter is no mistake" [ "$(grep -c 'fixed by' err)" = 0 ]
+check "the unit of what may have any" grep -q '^ *limit = [0-9.]* m, computed' out
+check "no unit is ?" [ "$(grep -c ' ?' out)" = 0 ]
+
 # ---- mistakes
 says 2 "which pair? --pair RECEIVER,EMITTER or --at X,Y,Z:X,Y,Z" explain "$small"
 says 2 "give one" explain "$small" --pair 0,3 --at 0,0,0:1,1,1
