@@ -256,8 +256,9 @@ static void unknown_item(struct parser *parser)
     struct suggestion suggestion = {parser->token.text, NULL, 0};
     dag_expected(
         parser,
-        catalog ? "import, runtime, verb, unit, type, term, fact, extern, tool, decision or graph"
-                : "'oracle', 'graph', 'import', 'catalog' or a declaration");
+        catalog
+            ? "import, runtime, verb, unit, type, term, fact, role, extern, tool, decision or graph"
+            : "'oracle', 'graph', 'import', 'catalog' or a declaration");
     if (parser->token.kind == TOKEN_NAME) {
         for (int i = 0; i < ITEM_WORDS; i++)
             dag_suggest(&suggestion, item_words[i]);
