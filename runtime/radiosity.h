@@ -748,7 +748,7 @@ struct RadMeasureOptions {
 enum { RAD_UNSURE_NAMED = 100 };
 /* Errors are those of the light that is reflected, B - E: to E nothing can be wrong. */
 struct RadErrorReport {
-    struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
+    struct RadMeasure power; /* of all light together; positive: the solution is too bright */
     /* sum over polygons and bands of the modulus; no less than what of power is sure */
     struct RadMeasure l1_faces;
     /* over the surfaces, of what RadMeasureOptions.surfaces asked for, slopes included: root of

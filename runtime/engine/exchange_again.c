@@ -57,7 +57,7 @@ static size_t list_entries(const struct exchange_areas *m, const struct link *co
     return count;
 }
 
-static void look(const void *looking, size_t from, size_t to)
+static void find_entries(const void *looking, size_t from, size_t to)
 {
     const struct looking *l = looking;
     const struct exchange_tree *t = l->areas->tree;
@@ -87,8 +87,8 @@ static int look_at_all(const struct looking *all, size_t count, const struct exc
     for (size_t from = 0; from < count; from += AT_A_TIME) {
         const size_t n = count - from < AT_A_TIME ? count - from : AT_A_TIME;
         const struct looking some = {m, all->scratch, all->entries + from};
-        ranks_loop_run(m->ranks, RANKS_VALUES, how->threads, n, 1, look, &some, some.entries,
-                       sizeof *some.entries);
+        ranks_loop_run(m->ranks, RANKS_VALUES, how->threads, n, 1, find_entries, &some,
+                       some.entries, sizeof *some.entries);
         if (is_stopped(m, how, links, (double)(from + n) / (double)count,
                        rays_count(m->tree->rays).rays - before))
             return -1;

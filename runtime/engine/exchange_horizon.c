@@ -219,7 +219,7 @@ static int add_line(struct horizon_view *view, const struct sight_edge_block *e,
 }
 
 /* Returns 0 when the point is not told. */
-static int look(const struct looking_past *l, const double n[3], struct horizon_view *view)
+static int view_from(const struct looking_past *l, const double n[3], struct horizon_view *view)
 {
     const struct outline_cell *cell = &l->sight.cell;
     const struct horizon *z = l->horizon;
@@ -380,7 +380,7 @@ static void fill_row(struct looking_past *l, const struct element *e, struct sig
         const struct face_rule *rule = i < inside ? &rules.inside : &rules.rim;
         for (int k = 0; k < 3; k++)
             z->view[i].x[k] = rule->x[k][i < inside ? i : i - inside];
-        told = look(l, e->normal, &z->view[i]);
+        told = view_from(l, e->normal, &z->view[i]);
     }
     for (int c = 0; c < z->cells; c++) {
         const struct element *face = z->cell[c].face;

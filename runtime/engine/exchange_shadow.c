@@ -142,8 +142,9 @@ static int see_cell(const struct outline *shadows, int count, const struct shado
 }
 
 /* What one point sees of the screen's cells; k: which of the points that count, or -1. */
-static void look(const struct screen *screen, const double x[3], int k,
-                 const struct polygon *blockers, int blocker_count, struct shadow_sight *sights)
+static void see_cells(const struct screen *screen, const double x[3], int k,
+                      const struct polygon *blockers, int blocker_count,
+                      struct shadow_sight *sights)
 {
     struct outline shadows[BLOCKERS_MAX];
     double height = height3(x, screen->frame.origin, screen->frame.n);
@@ -236,9 +237,9 @@ static void see_screen(const struct screen *screen, const struct points *points,
         sights[j] = (struct shadow_sight){.low = INFINITY};
     prove(screen, points, blockers, blocker_count, sights);
     for (int k = 0; k < OUTLINE_FEW; k++)
-        look(screen, points->x[k], k, blockers, blocker_count, sights);
+        see_cells(screen, points->x[k], k, blockers, blocker_count, sights);
     for (int c = 0; c < points->corners; c++)
-        look(screen, points->corner[c], -1, blockers, blocker_count, sights);
+        see_cells(screen, points->corner[c], -1, blockers, blocker_count, sights);
 }
 
 /* The seen share of what the points, normal n, exchange with a cell. */

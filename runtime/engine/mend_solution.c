@@ -265,8 +265,8 @@ static int look_ahead(struct solve *s, const struct tracer *t, struct mending_go
 
 /* A first look by particles; then paths, if they are much cheaper for polygons: s->by_paths.
  * Returns 0, or -1 when cancelled or out of memory. */
-static int look(struct solve *s, const struct tracer *t, struct tally *tally,
-                struct path_tally *paths, const struct mending_goal *goal)
+static int look_first(struct solve *s, const struct tracer *t, struct tally *tally,
+                      struct path_tally *paths, const struct mending_goal *goal)
 {
     const uint64_t first = goal->least > 0 ? goal->least : LOOK,
                    rays = first < goal->most ? first : goal->most;
@@ -306,7 +306,8 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
                  || covered_leaves(s) < 0;
     const uint32_t elements = s->hierarchy.count;
     failed = failed || detail_leaves(s, landings_that_tell(&left)) < 0
-             || tally_open(&tally, &t, MEND_STREAM, 1) < 0 || look(s, &t, &tally, &paths, goal) < 0
+             || tally_open(&tally, &t, MEND_STREAM, 1) < 0
+             || look_first(s, &t, &tally, &paths, goal) < 0
              || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
              || (!s->by_paths && trace_for_faces(s, &t, &tally, goal, &unaided) < 0)
              || measured_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0;

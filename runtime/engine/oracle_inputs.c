@@ -109,7 +109,7 @@ struct showing {
     struct element *elements;
 };
 
-static void show(const void *showing, uint32_t i)
+static void show_element(const void *showing, uint32_t i)
 {
     const struct showing *s = showing;
     struct element *e = &s->elements[i];
@@ -137,7 +137,7 @@ int oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *
     }
     const struct showing s = {
         in, {room, room + values, room + 2 * values}, op, radiosity, h->elements};
-    children_first(h, op->problem->options.threads, show, &s);
+    children_first(h, op->problem->options.threads, show_element, &s);
     free(room);
     return 0;
 }

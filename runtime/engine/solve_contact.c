@@ -87,8 +87,8 @@ void solve_measure_contact(struct solve *s, uint32_t first, int known)
     const struct problem *p = &s->problem;
     double *uncovered = s->operator.uncovered;
     const struct handed_on *handed = p->options.handed_on;
-    const struct contacts contacts = {
-        h, p->rays, uncovered, first, known, handed ? handed->uncovered : NULL};
+    const struct contacts contacts = {h,     p->rays, uncovered,
+                                      first, known,   handed ? handed->uncovered : NULL};
     if (s->quarters.common) /* here each rank has others */
         thread_pool_run(p->options.threads, h->count - first, 64, measure_leaves, &contacts);
     else

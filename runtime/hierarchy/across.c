@@ -110,14 +110,14 @@ static int is_in_box(const struct search *s, const double (*box)[3])
     return 1;
 }
 
-static void look(struct search *s, uint32_t index)
+static void look_below(struct search *s, uint32_t index)
 {
     const struct element *e = &s->h->elements[index];
     if (e->vertices ? !is_reached(s, e->centre, e->radius)
                     : !is_in_box(s, (const double(*)[3])e->vertex))
         return;
     for (uint32_t c = 0; c < e->children && s->count < ACROSS_FACES; c++)
-        look(s, e->child + c);
+        look_below(s, e->child + c);
     if (e->children || index == s->own || s->h->faces[s->h->order[s->h->range[index].from]].back)
         return;
     for (int side = 0; side < e->vertices && s->count < ACROSS_FACES; side++)
@@ -160,7 +160,7 @@ int across_edge(const struct hierarchy *h, uint32_t face, int side,
     s.at = e->vertex[side];
     s.end = e->vertex[side + 1 < e->vertices ? side + 1 : 0];
     s.length = frame_of(h, e, side, s.along, s.inwards, &s.slack);
-    look(&s, 0);
+    look_below(&s, 0);
     if (s.count == ACROSS_FACES)
         return 0;
     for (int i = 0; i < 2 * s.count; i++) {

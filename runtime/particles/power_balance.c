@@ -22,14 +22,14 @@
 #include "util/thread_pool.h"
 
 /* By replicate, as counted (W): reflected; absorbed or lost. */
-struct balance {
+struct band_balance {
     double reflected[REPLICATES], ended[REPLICATES], emitted;
 };
 
 struct balancing {
     const struct tally *tally;
     const struct tracer *t;
-    struct balance *balance; /* [band] */
+    struct band_balance *of_band; /* [band] */
 };
 
 /* For sets of particles: what has come of each; */
@@ -53,8 +53,8 @@ static void add_faces(const void *balancing, size_t from, size_t to)
             }
         }
         for (uint32_t k = 0; k < tally->bands; k++) {
-            x->balance[k].reflected[r] = reflected[k];
-            x->balance[k].ended[r] = ended[k] + unit * (double)tally->lost[r][k];
+            x->of_band[k].reflected[r] = reflected[k];
+            x->of_band[k].ended[r] = ended[k] + unit * (double)tally->lost[r][k];
         }
     }
 }
@@ -91,14 +91,14 @@ static double too_little(double balanced, double counted)
 
 void power_balance(struct tally *tally, const struct tracer *t)
 {
-    struct balance balance[3] = {{{0}, {0}, 0}};
+    struct band_balance of_band[3] = {{{0}, {0}, 0}};
     memset(tally->correction, 0, sizeof tally->correction);
     if (tally->particles == 0)
         return;
-    const struct balancing balancing = {tally, t, balance};
+    const struct balancing balancing = {tally, t, of_band};
     thread_pool_run(t->threads, REPLICATES, 1, add_faces, &balancing);
     for (uint32_t k = 0; k < tally->bands; k++) {
-        struct balance b = balance[k];
+        struct band_balance b = of_band[k];
         struct sums all = {.sets = REPLICATES};
         if (tally->parted_faces
             || tally->quarters) { /* sums of sums: nobody needs the counts themselves */

@@ -134,7 +134,7 @@ int checkpoint_open(struct checkpoint *c, RadDevice device, const struct options
 }
 
 /* Returns 0, or -1 after a message. */
-static int take(struct checkpoint *c, RadSolution solution)
+static int take_state(struct checkpoint *c, RadSolution solution)
 {
     struct parts p = {0};
     const char *cause;
@@ -168,7 +168,7 @@ static int take(struct checkpoint *c, RadSolution solution)
 int checkpoint_begin(struct checkpoint *c, RadSolution solution)
 {
     c->passes = -1;
-    if (c->from && take(c, solution) < 0) {
+    if (c->from && take_state(c, solution) < 0) {
         c->failed = 1;
         return -1;
     }

@@ -587,7 +587,7 @@ static int check_errors(const struct options *o, const char *name)
 }
 
 /* What follows from other options where it is not given itself. */
-static void settle(struct options *o)
+static void follow_from_others(struct options *o)
 {
     if (o->out && o->command == COMMAND_VIEWFACTORS && !o->format_given)
         o->format = factor_format_of(o->out);
@@ -609,7 +609,7 @@ static int check_together(struct options *o)
         check_needed,   check_watching, check_checkpoints, check_matrix,  check_rows_or_columns,
         check_accuracy, check_no_links, check_solver,      check_picture, check_errors};
     int status = -1;
-    settle(o);
+    follow_from_others(o);
     for (size_t i = 0; i < sizeof checks / sizeof *checks && status < 0; i++)
         status = checks[i](o, command_rows[o->command].name);
     return status;

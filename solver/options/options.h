@@ -106,7 +106,7 @@ struct options {
     struct copies copies;             /* viewfactors: --mirror, --repeat */
     int width, height, mesh;          /* of the picture */
     int size_given;
-    int gather;                       /* rays per pixel; 0: none; -1, not given: at corners */
+    int gather; /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;
     int view_given;
 

@@ -243,7 +243,7 @@ int hdf5_put_text(struct hdf5_file *f, const char *name, const char *text)
 }
 
 /* On the disk, before it takes the name of what was there. */
-static int settle(const char *path)
+static int bring_to_disk(const char *path)
 {
     const int file = open(path, O_RDONLY | O_CLOEXEC);
     const int failed = file < 0 || fsync(file) < 0;
@@ -263,7 +263,7 @@ int hdf5_commit(struct hdf5_file *f)
     if (result == 0) {
         if (f->named) {
             temporary_lock();
-            failed = settle(f->temporary) || rename(f->temporary, f->target) < 0;
+            failed = bring_to_disk(f->temporary) || rename(f->temporary, f->target) < 0;
             cause = errno;
             if (!failed) {
                 temporary_forget(f->temporary);

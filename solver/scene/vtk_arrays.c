@@ -193,7 +193,7 @@ int vtk_arrays_appended(struct vtk_arrays *a, const char *text, size_t size, siz
 /* So many bytes of the array, that is more of them, in a->text, from `*at` on. Returns 0, or -1
  * when there are not so many. Lengths and blocks may have been encoded together or each for itself.
  */
-static int take(struct vtk_arrays *a, size_t *at, uint64_t bytes)
+static int take_bytes(struct vtk_arrays *a, size_t *at, uint64_t bytes)
 {
     while (a->size < bytes) {
         const uint64_t more = bytes - a->size;
@@ -219,20 +219,20 @@ static int read_appended(struct vtk_arrays *a, struct vtk_values *v)
     int cut = !a->appended || !is_whole(a->offset, (double)a->appended_size + 1);
     size_t at = cut ? 0 : (size_t)a->offset;
     a->size = 0;
-    cut = cut || take(a, &at, word);
+    cut = cut || take_bytes(a, &at, word);
     uint64_t bytes = word;
     if (!cut && !a->compressed) {
         const uint64_t counted = head(a, 0);
-        cut = counted > a->appended_size || take(a, &at, bytes += counted);
+        cut = counted > a->appended_size || take_bytes(a, &at, bytes += counted);
     } else if (!cut && head(a, 0)) {
         const uint64_t count = head(a, 0);
-        cut = count > a->appended_size / word || take(a, &at, bytes += (2 + count) * word);
+        cut = count > a->appended_size / word || take_bytes(a, &at, bytes += (2 + count) * word);
         for (uint64_t i = 0; i < count && !cut; i++) {
             const uint64_t taken = head(a, 3 + i);
             bytes += taken;
             cut = taken > a->appended_size || bytes > a->appended_size;
         }
-        cut = cut || take(a, &at, bytes);
+        cut = cut || take_bytes(a, &at, bytes);
     }
     if (cut)
         return report_error(

@@ -1142,16 +1142,17 @@ END_TEST
 
 START_TEST(test_cut_shapes)
 {
-    static const char off[] = "OFF # a square\n4 1 4\n0 0 0\n2 0 0 255 0 0\n2 2 0\n0 2 0\n\n"
-                              "4 0 1 2 3 0.5 0.5\n",
-                      plain_off[] = "3 1\r0 0 0\r2 0 0\r2 2 0\r3 0 1 2\r",
-                      ply[] = "ply\r\nformat ascii 1.0\r\ncomment x\r\nelement vertex 3\r\n"
-                              "property double x\r\nproperty double y\r\nproperty double z\r\n"
-                              "property uchar red\r\nelement face 1\r\n"
-                              "property list uchar int vertex_indices\r\nend_header\r\n"
-                              "1000000 0 0 1\r\n1000000.5 0 0 1\r\n1000000.5 1 0 1\r\n3 0 1 2\r\n",
-                      stl[] = "\xEF\xBB\xBFsolid of a kind\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
-                              "vertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
+    static const char
+        off[] = "OFF # a square\n4 1 4\n0 0 0\n2 0 0 255 0 0\n2 2 0\n0 2 0\n\n"
+                "4 0 1 2 3 0.5 0.5\n",
+        plain_off[] = "3 1\r0 0 0\r2 0 0\r2 2 0\r3 0 1 2\r",
+        ply[] = "ply\r\nformat ascii 1.0\r\ncomment x\r\nelement vertex 3\r\n"
+                "property double x\r\nproperty double y\r\nproperty double z\r\n"
+                "property uchar red\r\nelement face 1\r\n"
+                "property list uchar int vertex_indices\r\nend_header\r\n"
+                "1000000 0 0 1\r\n1000000.5 0 0 1\r\n1000000.5 1 0 1\r\n3 0 1 2\r\n",
+        stl[] = "\xEF\xBB\xBFsolid of a kind\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                "vertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
     expect_whole("cut.off", off, sizeof off - 1, 4);
     expect_whole("plain.off", plain_off, sizeof plain_off - 1, 2);
     expect_whole("cut.ply", ply, sizeof ply - 1, .25);
@@ -1301,7 +1302,10 @@ START_TEST(test_faces_csv)
                                        "a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n"));
     ck_assert_uint_eq(l.report.faces, 2);
     const struct solution solution = {
-        l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL, NULL}, 0, 0};
+        l.surfaces,
+        {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL, NULL},
+        0,
+        0};
     ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &solution, NULL), 0);
     char *text = read_text(in_folder("f.csv"));
     ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0,sides\n"
