@@ -4,7 +4,9 @@
  * lie back to back, as walls drawn from both sides, see all. Which it is their planes do not tell:
  * it is the one if over one of them is something solid, whose backs rays from there meet. A ray
  * that ends where two faces lie on each other tells nothing, for it may be told either of the two.
- * Rays are as many low as steep, for under a plate only low ones meet its rim. [derived here]
+ * Rays are as many low as steep, for under a plate only low ones meet its rim. Close behind a lamp
+ * all meet its back, too, though nothing is solid there; so what is said to end there, a face of no
+ * convex solid, is also asked whether anything goes on behind it (body_rim.h). [derived here]
  * SPDX-License-Identifier: MIT */
 #include "engine/exchange_contacts.h"
 #include <math.h>
@@ -12,6 +14,7 @@
 #include "hierarchy/body_contacts.h"
 #include "hierarchy/body_feet.h"
 #include "hierarchy/body_rest.h"
+#include "hierarchy/body_rim.h"
 #include "kernel/hemisphere.h"
 #include "kernel/lambert.h"
 
@@ -74,17 +77,41 @@ static int is_solid_over(const struct exchange_tree *t, const struct element *e,
     return told > 0 && backs >= MOST_BACKS * told;
 }
 
+/* Is a face a side of something solid? Of back sides nothing is known. Returns 1 or 0, or -1 when
+ * out of memory. */
+static int ends_solid(const struct exchange_tree *t, struct body_rim *rim, uint32_t face)
+{
+    return t->bodies.whose[face] || t->h.faces[t->h.elements[face].face].back
+               ? 1
+               : body_rim_goes_back(rim, &t->h, face);
+}
+
+/* Is there something solid between two faces, on one of them? Returns 0, or -1 when out of memory.
+ */
+static int judge(const struct exchange_tree *t, struct body_rim *rim, struct body_contact *c)
+{
+    for (int k = 0; k < 2 && !c->solid; k++) {
+        const int solid = is_solid_over(t, &t->h.elements[c->face[k]], c->middle)
+                              ? ends_solid(t, rim, c->face[1 - k])
+                              : 0;
+        if (solid < 0)
+            return -1;
+        c->solid = solid;
+    }
+    return 0;
+}
+
 int exchange_contacts_find(struct exchange_tree *t)
 {
     struct body_contacts all = {NULL, 0, 0};
-    int status = body_contacts_find(&all, &t->bodies, &t->h);
-    for (size_t i = 0; i < all.count && status == 0; i++) {
-        struct body_contact *c = &all.list[i];
-        for (int k = 0; k < 2 && !c->solid; k++)
-            c->solid = is_solid_over(t, &t->h.elements[c->face[k]], c->middle);
-    }
+    struct body_rim rim;
+    int status = body_rim_open(&rim, &t->h);
+    status = status == 0 ? body_contacts_find(&all, &t->bodies, &t->h) : status;
+    for (size_t i = 0; i < all.count && status == 0; i++)
+        status = judge(t, &rim, &all.list[i]);
     if (status == 0 && all.count > 0)
         status = body_feet_contacts(&t->bodies, all.list, all.count);
     free(all.list);
+    body_rim_close(&rim);
     return status;
 }

@@ -1,5 +1,6 @@
 /* check_stacked.c - solids between faces: a box on another box on a floor, a post with or without
- * ends between two boards, a house of outer and inner walls in the same planes.
+ * ends between two boards, a house of outer and inner walls in the same planes, two rooms with a
+ * lamp below the ceiling of the one.
  *
  * All values are known: what lies under a solid with a face there sees nothing, what is joined by a
  * tube without ends sees through it, and closed rooms sum to what is not covered of them.
@@ -355,6 +356,56 @@ START_TEST(test_reach)
 }
 END_TEST
 
+/* A room of 3 x 3 on another, with n x n tiles of what is the one's floor and the other's ceiling.
+ * A lamp with one side, or a lid over it, hangs so close below the middle that next to nothing
+ * comes between: what is over it is dark, but no solid, and covers nothing of the floor above. */
+static const struct {
+    int tiles;
+    double gap;
+} lamp[] = {{1, 1e-3}, {1, 1e-2}, {3, 1e-3}, {9, 1e-3}};
+
+START_TEST(test_lamp)
+{
+    static double f[FACES * FACES], area[FACES];
+    const int n = lamp[_i].tiles, tiles = n * n;
+    const double low[2][3] = {{0, 0, 0}, {0, 0, 2}}, high[2][3] = {{3, 3, 2}, {3, 3, 4}},
+                 u[3] = {3.0 / n, 0, 0}, v[3] = {0, 3.0 / n, 0}, at[3] = {1, 1, 2 - lamp[_i].gap},
+                 along[3] = {1, 0, 0}, across[3] = {0, 1, 0};
+    double ceiling = 0;
+    clear();
+    for (int i = 0; i < 2 * tiles; i++) {
+        const double corner[3] = {i % n * u[0], i % tiles / n * v[1], 2};
+        rectangle(corner, i < tiles ? v : u, i < tiles ? u : v);
+    }
+    box(low[0], high[0], 1, 1 << 1);
+    box(low[1], high[1], 1, 1);
+    rectangle(at, across, along);
+    factors(scene.faces, 0, f, area);
+    for (int i = 0; i < tiles; i++) {
+        ceiling += row_sum(f, (uint32_t)i) / tiles;
+        ck_assert_double_eq_tol(row_sum(f, (uint32_t)(tiles + i)), 1, 3e-4);
+    }
+    ck_assert_double_eq_tol(ceiling, 8.0 / 9, 2e-3);
+}
+END_TEST
+
+/* A plate drawn from both sides, in a room, and the back of another close over all of it. */
+START_TEST(test_plate)
+{
+    static double f[FACES * FACES], area[FACES];
+    const double at[2][3] = {{1, 1, 1}, {1, 1, 1.01}}, u[3] = {1, 0, 0}, v[3] = {0, 1, 0};
+    clear();
+    room(3, 2, 1);
+    const uint32_t plate = scene.faces;
+    rectangle(at[0], u, v);
+    rectangle(at[0], v, u);
+    rectangle(at[1], u, v);
+    factors(scene.faces, 0, f, area);
+    ck_assert_double_eq_tol(row_sum(f, plate), 0.0195, 1e-3); /* past the edges of the gap */
+    ck_assert_double_eq_tol(row_sum(f, plate + 1), 1, 3e-4);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("stacked");
@@ -367,6 +418,8 @@ int main(void)
     tcase_add_loop_test(t, test_angle, 0, 2);
     tcase_add_loop_test(t, test_what_is_covered, 0, 2);
     tcase_add_loop_test(t, test_reach, 0, 2 * sizeof reach / sizeof *reach);
+    tcase_add_loop_test(t, test_lamp, 0, sizeof lamp / sizeof *lamp);
+    tcase_add_test(t, test_plate);
     tcase_add_loop_test(t, test_house, 0, under_sanitizers() ? 1 : 3);
     tcase_add_loop_test(t, test_meshed_house, 0, under_sanitizers() ? 4 : 14);
     suite_add_tcase(suite, t);
