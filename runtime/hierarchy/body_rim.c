@@ -35,7 +35,7 @@ static int add(struct plane *p, uint32_t face)
 
 /* A stretch of a face's edge: there it goes on in its plane, or ends. Returns 0, or -1 when out of
  * memory. */
-static int look(struct plane *p, const struct element *e, const struct across *stretch)
+static int look_across(struct plane *p, const struct element *e, const struct across *stretch)
 {
     double high = 0, low = 0, along[3];
     if (stretch->face != ACROSS_NOBODY) {
@@ -63,7 +63,7 @@ int body_rim_goes_back(struct body_rim *rim, const struct hierarchy *h, uint32_t
         for (int side = 0; side < e->vertices; side++) {
             const int count = across_edge(h, rim->list[at], side, list);
             for (int i = 0; i < count; i++)
-                if (look(&p, e, &list[i]) < 0)
+                if (look_across(&p, e, &list[i]) < 0)
                     return -1;
         }
     }
