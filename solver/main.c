@@ -42,7 +42,7 @@ static int run(const struct options *o)
 {
     const struct scene_options how = {.two_sided = o->two_sided,
                                       .quiet = o->quiet,
-                                      .long_stay = o->command == COMMAND_VIEWFACTORS};
+                                      .factors_alone = o->command == COMMAND_VIEWFACTORS};
     if (!o->scene || o->scenes || o->command == COMMAND_ERROR)
         return commands[o->command](o, NULL);
     const enum RadTurned turned = o->flip_closed                      ? RAD_TURNED_FLIP

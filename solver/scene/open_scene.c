@@ -36,7 +36,7 @@ int open_whole_scene(struct open_scene *s, const char *path, const struct scene_
         return close_scene(s), -1;
     struct RadPolygons polygons = scene_file_polygons(&s->file);
     polygons.turned = turned;
-    polygons.cut_long = !options->long_stay;
+    polygons.cut_long = !options->factors_alone;
     s->device = open_device(threads);
     if (s->device) {
         s->scene = radNewScene(s->device);

@@ -146,6 +146,16 @@ static int read_shape(struct scene_file *f, const char *path, const struct shape
     return result;
 }
 
+static void dim_white(struct scene_file *f)
+{
+    for (uint32_t i = 0; i < f->material_count; i++)
+        for (int k = 0; k < 3; k++) {
+            double *reflectance = &f->materials[i].reflectance[k];
+            if (*reflectance == 1)
+                *reflectance = nextafter(1, 0);
+        }
+}
+
 /* Materials that no polygon has may be anything. */
 static int check_materials(const struct scene_file *f, const char *path)
 {
@@ -253,6 +263,8 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
     if (!result) {
         for (uint32_t i = 0; i < f->material_count; i++)
             f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");
+        if (options->factors_alone)
+            dim_white(f);
         result = check_materials(f, path);
     }
     if (!result && !options->quiet) {

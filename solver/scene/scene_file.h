@@ -48,7 +48,9 @@ struct scene_file {
 struct scene_options {
     int two_sided; /* treat every face as two-sided */
     int quiet;     /* no warnings on stderr */
-    int long_stay; /* long faces are not cut across (RadPolygons.cut_long) */
+    /* for view factors: long faces are not cut across (RadPolygons.cut_long), and what reflects all
+     * light, as glTF's white does, is as good as what reflects nearly all */
+    int factors_alone;
 };
 
 /* Read `path`: OBJ, PLY, STL, OFF and meshes (read_meshes.h) by our readers, any other format by

@@ -41,6 +41,16 @@ factors cube.obj
 silent 'looks turned'
 figure to_backs_mean 0 0
 cp m.csv cube.csv
+{ echo "mtllib white.mtl"; sed "s/^# faces/usemtl white/" cube.obj; } >white.obj
+printf 'newmtl white\nKd 1 1 1\n' >white.mtl
+factors white.obj # what reflects all has view factors, though no solution
+differ m.csv cube.csv 0 "what it reflects"
+"$radiosity" solve white.obj -q >out 2>err
+[ $? = 1 ] && grep -q "white.mtl:2: error: material 'white' has reflectance 1" err || failed "all is reflected"
+sed 's/Kd 1 1 1/Kd 1 1 1.1/' white.mtl >more.mtl
+sed 's/white.mtl/more.mtl/' white.obj >more.obj
+"$radiosity" viewfactors more.obj -q >out 2>err
+[ $? = 1 ] && grep -q "more.mtl:2: error: material 'white' has reflectance 1.1" err || failed "more than all is reflected"
 { sed "/^f/d" cube.obj; echo "v 2 0 0"; printf "f %s\n" "1 2 9" "1 2 3 4" "5 8 7 6"; } >flat.obj # no area, so no side
 factors flat.obj
 told '1 degenerate faces dropped'
