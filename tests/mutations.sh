@@ -35,6 +35,7 @@ ears forget the corner before | runtime/hierarchy/polygon.c | s/sides_of(r, \&t,
 ears know but half of a box | runtime/hierarchy/polygon.c | s/p_beyond \& last_beyond/p_beyond + last_beyond/ | runtime/check_triangles
 all planes are parallel | runtime/hierarchy/cut_contacts.c | s/square <= 0.25/square <= 1e5/ | runtime/check_cut
 all faces are parts of one polygon | runtime/hierarchy/overlaps.c | s/of.n->child + k. == of.i. ? of.i. : MIXED/f->input/ | runtime/check_overlaps
+dark pieces hide no light | runtime/engine/sight_cubature.c | s/!l->limits.many \&\& node->count > 1/!l->limits.many \&\& node->count > 1000/ | runtime/check_entries
 what is close behind a lamp is solid | runtime/hierarchy/body_rim.c | s/p.back >= MOST \* p.length/p.back >= -1/ | runtime/check_stacked
 rims end where faces are cut | runtime/hierarchy/body_rim.c | s/return p->rim->known\[stretch->face\] ? 0 : add(p, stretch->face);/;/ | runtime/check_stacked
 boxes stay out | runtime/visibility/standing.c | s/if (low >= 0)/if (low >= -1)/ | runtime/check_contact

@@ -15,8 +15,9 @@
  * have either sign. Pieces with more in their shaft than points can look past have 1024 rays each,
  * and are cut too. Invariant: pieces cover the part once; what is proved is not cut; none
  * exchanges more than with nothing between. What shades may be that meet no point counts as error
- * at the most (sight_missed.h), down to small pieces. Fails: light through gaps between shades that
- * meets no point of a piece, nor of its rim.
+ * at the most (sight_missed.h), down to small pieces; so does a share of what dark pieces might
+ * see. Fails: light through gaps between shades that meets no point of a small piece, nor of its
+ * rim, nor of any in scenes of many polygons.
  * [globally adaptive cubature: van Dooren & de Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -252,7 +253,8 @@ static int has_room(const struct looking *l, int pieces)
 }
 
 /* At most what is missed of a piece's shades, where neither its own points nor, if there are any,
- * its quarters' see them; no more than it exchanges (m2). 0 of small pieces. */
+ * its quarters' see them; no more than it exchanges (m2). Where all is dark it is light that may be
+ * missed, between two shades: not at the most, but as of SIGHT_ALIKE. 0 of small pieces. */
 static double missed(const struct looking *l, int at)
 {
     const struct sight_node *node = &l->scratch->nodes[at],
@@ -263,6 +265,8 @@ static double missed(const struct looking *l, int at)
     const int most = l->ends.believes ? SIGHT_MISSED_MANY : SIGHT_MISSED,
               enough = l->limits.many ? 1 : 2;
     struct sight_eyes eyes;
+    if (!l->limits.many && node->count > 1 && !(node->value > SIGHT_NO_LIGHT * node->clear))
+        return node->piece.area * SIGHT_DARK > l->ends.from->area ? SIGHT_ALIKE * node->clear : 0;
     if (!(node->piece.area * most > l->ends.from->area))
         return 0;
     sight_eyes_open(&eyes, &l->look.sight, l->ends.tree->lift, enough);
