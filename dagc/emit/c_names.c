@@ -264,13 +264,11 @@ static void print_name(struct dag *dag, struct text *out, const struct c_token *
                        const struct c_names *names, const char *prefix)
 {
     size_t length = strlen(prefix);
-    char *before = dag_alloc(&dag->arena, length + 1); /* its last byte is 0 */
     const char *name = dag_c_copy_name(dag, token->text);
     int small = 0;
     for (size_t i = 0; i < token->length; i++)
         small |= islower((unsigned char)token->text[i]);
-    for (size_t i = 0; i < length; i++)
-        before[i] = small ? prefix[i] : (char)toupper((unsigned char)prefix[i]);
+    const char *before = small ? prefix : dag_c_upper(dag, prefix);
     if (token->length <= length + 1 || strncmp(name, before, length) != 0 || name[length] != '_')
         do
             name = dag_format(&dag->arena, "%s_%s", before, name);

@@ -105,6 +105,15 @@ const char *dag_c_copy_name(struct dag *dag, const char *text)
     return dag_copy(&dag->arena, text, length);
 }
 
+const char *dag_c_upper(struct dag *dag, const char *name)
+{
+    size_t length = strlen(name);
+    char *upper = dag_alloc(&dag->arena, length + 1); /* its last byte is 0 */
+    for (size_t i = 0; i < length; i++)
+        upper[i] = (char)toupper((unsigned char)name[i]);
+    return upper;
+}
+
 /* ---- fields */
 
 static int is_blank(const struct c_token *token)

@@ -26,6 +26,7 @@ int dag_c_is(const struct c_token *token, const char *word);
 /* What a directive says after `#` and blanks, if it is `word`; else NULL. */
 const char *dag_c_directive(const struct c_token *token, const char *word);
 const char *dag_c_copy_name(struct dag *dag, const char *text); /* the name that it begins with */
+const char *dag_c_upper(struct dag *dag, const char *name);     /* it in capitals */
 
 /* What texts define at file scope, beyond doubt: what is left out keeps its name. */
 struct c_names {

@@ -34,13 +34,6 @@ static const char *text_kept(struct dag *dag, struct text *text)
     return copy;
 }
 
-static const char *in_capitals(struct dag *dag, const char *name)
-{
-    struct text upper = {0};
-    dag_print_upper(&upper, name);
-    return text_kept(dag, &upper);
-}
-
 static const char declarations_name[] = "<declarations>", functions_name[] = "<functions>";
 
 /* What dagc writes itself. */
@@ -138,7 +131,7 @@ static unsigned char *find_tools(struct dag *dag, const struct amalgam *files)
     unsigned char *found = dag_alloc(&dag->arena, (size_t)dag->tool_count);
     for (int i = 0; i < dag->tool_count; i++) {
         const struct tool *tool = &dag->tools[i];
-        const char *name = in_capitals(dag, tool->name);
+        const char *name = dag_c_upper(dag, tool->name);
         found[i] =
             dag_find(&files->names.expanded, dag_format(&dag->arena, "%s_answer", tool->name)) >= 0;
         found[i] |=
@@ -146,7 +139,7 @@ static unsigned char *find_tools(struct dag *dag, const struct amalgam *files)
         for (int a = 0; a < tool->answers.count; a++) {
             const char *answer =
                 dag_format(&dag->arena, "%s_%s", name,
-                           in_capitals(dag, dag->answers[tool->answers.first + a].name));
+                           dag_c_upper(dag, dag->answers[tool->answers.first + a].name));
             found[i] |= dag_find(&files->names.expanded, answer) >= 0;
         }
     }
@@ -175,7 +168,7 @@ static int is_guard_of_host(struct dag *dag, const struct emit_options *options,
         memcpy(name, base, strlen(base));
         for (char *at = name; *at != '\0'; at++)
             *at = *at == '.' || *at == '-' ? '_' : *at;
-        if (strcmp(in_capitals(dag, name), guard) == 0)
+        if (strcmp(dag_c_upper(dag, name), guard) == 0)
             return 1;
     }
     return 0;
@@ -185,7 +178,7 @@ static int is_guard_of_host(struct dag *dag, const struct emit_options *options,
 static const char *choose_guard(struct standalone *s)
 {
     struct dag *dag = s->dag;
-    const char *upper = in_capitals(dag, s->files.prefix);
+    const char *upper = dag_c_upper(dag, s->files.prefix);
     const char *guard = dag_format(&dag->arena, "%s_H", upper);
     while (dag_find(&s->files.names.macros, guard) >= 0
            || is_guard_of_host(dag, &s->options, guard))

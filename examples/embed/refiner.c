@@ -670,16 +670,17 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
  * that only touches what lies between would have them cut along a line, as far as there are any.
  * Chosen: what is left is a 200th of a side wide */
 #define REFINER_SIGHT_MISSED 1024
-/* the same of pieces that all points see dark, past two faces or more, where light may pass between
- * two shades: of a random scene of six quads an entry was .55 % off by a thirtieth of a face.
- * Chosen: 1024 takes up to 2.5 times as long (panels), 64 up to 1.5 times */
-#define REFINER_SIGHT_DARK 64
-/* of what a piece would exchange with nothing between: rounding */
-#define REFINER_SIGHT_NO_LIGHT 1e-6
 /* the same in scenes of many polygons: in the face itself and its quarters, since tables' legs,
  * seen from each other, made rows of 1.008 there; measured: further down it takes twice as long for
  * a third less error */
 #define REFINER_SIGHT_MISSED_MANY 5
+/* in scenes of few polygons, of pieces that all points see dark, past two faces or more: light may
+ * pass between two shades, and SIGHT_ALIKE of what they would exchange counts as error. Of a random
+ * scene of six quads an entry was .55 % off by a thirtieth of a face. Chosen: 1024 takes up to 2.5
+ * times as long (panels), 64 up to 1.5 times */
+#define REFINER_SIGHT_DARK 64
+/* of what a piece would exchange with nothing between: no more than rounding */
+#define REFINER_SIGHT_ROUNDING 1e-6
 /* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
 #define REFINER_SIGHT_PIECES 8192
 #define REFINER_SIGHT_PIECES_MANY 512

@@ -62,7 +62,7 @@ struct choosing {
 };
 
 /* Another one is solved instead, if any is. */
-static void give_up(RadSolution s)
+static void hand_on(RadSolution s)
 {
     s->dead = 1;
     solve_hand_on(&s->solve);
@@ -98,7 +98,7 @@ static int solve(struct choosing *x, double scale, double pairs, RadSolution *so
     if (status == 0)
         *solution = s;
     else
-        give_up(s);
+        hand_on(s);
     x->so_far.seconds += status > 0 ? seconds() - start : 0;
     return status;
 }
@@ -108,7 +108,7 @@ static int measure(struct choosing *x, RadSolution solution, struct RadPlaces *p
 {
     const double start = seconds();
     if (radMeasurePlaces(solution, 0, places) < 0) {
-        give_up(solution);
+        hand_on(solution);
         return -1;
     }
     x->so_far.rays += places->rays;
@@ -165,7 +165,7 @@ static int solve_coarse(struct choosing *x, RadSolution *solution)
     const struct ray_split places = (*solution)->places;
     radGetReport(*solution, &r);
     x->so_far.seconds += r.seconds.build + r.seconds.refine + r.seconds.iterate;
-    give_up(*solution);
+    hand_on(*solution);
     status = solve(x, COARSE, pairs, solution);
     if (status <= 0)
         return status;
@@ -214,7 +214,7 @@ static int choose(struct choosing *x, RadSolution *solution)
         return 0;
     x->so_far.rays += r.rays;
     x->so_far.seconds = seconds() - start;
-    give_up(*solution);
+    hand_on(*solution);
     x->linked = most_off(&p);
     return solve(x, 1, 0, solution);
 }

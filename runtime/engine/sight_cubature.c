@@ -265,7 +265,7 @@ static double missed(const struct looking *l, int at)
     const int most = l->ends.believes ? SIGHT_MISSED_MANY : SIGHT_MISSED,
               enough = l->limits.many ? 1 : 2;
     struct sight_eyes eyes;
-    if (!l->limits.many && node->count > 1 && !(node->value > SIGHT_NO_LIGHT * node->clear))
+    if (!l->limits.many && node->count > 1 && !(node->value > SIGHT_ROUNDING * node->clear))
         return node->piece.area * SIGHT_DARK > l->ends.from->area ? SIGHT_ALIKE * node->clear : 0;
     if (!(node->piece.area * most > l->ends.from->area))
         return 0;
@@ -313,7 +313,7 @@ static void divide(struct looking *l, int at)
  * or nothing? */
 static int tells_alike(const struct sight_node *node, double differ)
 {
-    const double rounding = 1e-6 * node->clear;
+    const double rounding = SIGHT_ROUNDING * node->clear;
     return (node->points <= rounding || node->points >= node->clear - rounding)
            && differ <= rounding;
 }

@@ -127,8 +127,7 @@ static int replace(struct steps *s, const char *argument)
     radGetOracleReport(s->oracle, &report);
     for (int i = 0; i < report.parameter_count; i++) {
         const char *name = report.parameters[i].name;
-        if (!report.parameters[i]
-                 .fixed) /* to set that is an error, which the next one would show */
+        if (!report.parameters[i].fixed) /* to set one fails, and the next message would say so */
             (void)radSetOracleParameter(oracle, name, radGetOracleParameter(s->oracle, name));
     }
     radReleaseOracle(s->oracle);

@@ -194,6 +194,17 @@ static void count_some(struct tally *tally, const struct tracer *t, uint64_t str
     ck_assert_int_eq(tally_trace(tally, t, particles / REPLICATES, NULL), 0);
 }
 
+/* Links' light as many have mended it, and as few have mended that again. */
+static void mend_twice(const struct solve *s, const struct tally *many, const struct tally *few,
+                       double *mended, double *again)
+{
+    const size_t size = s->hierarchy.count * sizeof *mended;
+    memcpy(mended, s->state.irradiance, size);
+    ck_assert_int_eq(mend_irradiance(&s->operator, many, mended), 0);
+    memcpy(again, mended, size);
+    ck_assert_int_eq(mend_again(&s->operator, few, many, s->state.irradiance, again), 0);
+}
+
 /* What all faces of a room receive, and reflect (W). */
 static void sum_faces(const struct solve *s, const double *irradiance, double sum[2])
 {
@@ -237,10 +248,7 @@ START_TEST(test_again_in_all)
     ck_assert_int_eq(tracer_open(&t), 0);
     count_some(&many, &t, 0, 10000);
     count_some(&few, &t, 1, 2000);
-    memcpy(mended, s.state.irradiance, size);
-    ck_assert_int_eq(mend_irradiance(&s.operator, & many, mended), 0);
-    memcpy(again, mended, size);
-    ck_assert_int_eq(mend_again(&s.operator, & few, &many, s.state.irradiance, again), 0);
+    mend_twice(&s, &many, &few, mended, again);
     sum_faces(&s, mended, before);
     sum_faces(&s, again, after);
     printf("received %.6f, then %.6f; reflected %.6f, then %.6f W; 6 and 3\n", before[0], after[0],
@@ -278,16 +286,13 @@ START_TEST(test_again)
     for (uint64_t i = 0; i < DRAWS; i++) {
         count_some(&many, &t, 2 * i, MANY);
         count_some(&few, &t, 2 * i + 1, FEW);
-        memcpy(mended, s.state.irradiance, size);
-        ck_assert_int_eq(mend_irradiance(&s.operator, & many, mended), 0);
+        mend_twice(&s, &many, &few, mended, again);
         off[0] += walls_off(&s, mended) / DRAWS;
+        off[2] += walls_off(&s, again) / DRAWS;
+        ck_assert_double_eq_tol(again[0], mended[0], 1e-12);
         memcpy(again, mended, size);
         ck_assert_int_eq(mend_irradiance(&s.operator, & few, again), 0);
         off[1] += walls_off(&s, again) / DRAWS;
-        memcpy(again, mended, size);
-        ck_assert_int_eq(mend_again(&s.operator, & few, &many, s.state.irradiance, again), 0);
-        off[2] += walls_off(&s, again) / DRAWS;
-        ck_assert_double_eq_tol(again[0], mended[0], 1e-12);
         tally_close(&many);
         tally_close(&few);
     }
